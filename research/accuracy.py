@@ -8,8 +8,6 @@ pull-off of random tests, spheres and punches of `drawn_tests.py`, beside runs t
 accurate. Ten minutes on two cores.
 """
 
-from __future__ import annotations
-
 import argparse
 from time import perf_counter
 from typing import Any
@@ -18,16 +16,12 @@ import numpy as np
 
 from research.cases import spread, spread_out, words
 from research.drawn_tests import drawn
-from research.drawn_tests import words as test_words
-from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
+from viscotack import Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.simulate import SimulationError
-from viscotack.simulate.twins.plain_sphere import plain_solve
 
 CONVERGED = 1e-4
-# The plain twin is at hand where its equal nodes and steps resolve the case.
-TWIN_SIZE, TWINS = 500, 6
 
 
 def measure(groups: Groups) -> dict[str, Any]:
@@ -48,24 +42,6 @@ def measure(groups: Groups) -> dict[str, Any]:
     }
 
 
-def twin(groups: Groups) -> str:
-    """Return the converged force beside that of the plain twin, which shares no code with it."""
-    best = solve(groups, until="pull-off", accuracy=CONVERGED, estimate_error=False)
-    assert isinstance(groups.start, AtDepth)
-    plain = plain_solve(
-        groups,
-        nodes=TWIN_SIZE,
-        outer_radius=float(np.sqrt(2 * (60 + groups.start.depth) / groups.tabor)),
-        steps=TWIN_SIZE,
-        last_depth=2 * depth_at_pull_off(best) - groups.start.depth - 0.5,
-    )
-    force, converged = pull_off_force(plain), pull_off_force(best)
-    return (
-        f"{words(groups):62s} converged {converged:.4f}, plain twin {force:.4f}: "
-        f"{100 * (converged / force - 1):+.3f} %"
-    )
-
-
 # Of what errors are stated, and whether that is relative.
 STATED = {
     "force": (pull_off_force, True),
@@ -81,7 +57,7 @@ def stated_beside_true(asked: tuple[int, int, float, float]) -> dict[str, Any]:
     row: dict[str, Any] = {"number": number}
     try:
         groups = drawn(seed, number)
-        row["case"] = test_words(groups)
+        row["case"] = repr(groups)
         given: dict[str, Any] = {"until": "pull-off", "time_limit": limit}
         result = solve(groups, accuracy=accuracy, **given)
         best = solve(groups, accuracy=accuracy / FINER, estimate_error=False, **given)
@@ -162,9 +138,6 @@ def main() -> None:
         )
     for name, value in summary(rows).items():
         print(f"{name:28s} {value:.4g}")
-    easy = [g for g in cases if g.tabor < 1 and g.start.depth < 5][:TWINS]
-    for line in spread_out(twin, easy):
-        print(line)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,5 @@
 """Cases that several commands of this folder take, and processes that do them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any

@@ -3,8 +3,6 @@
 Each is made of a seed and its number alone.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -78,38 +76,6 @@ def solid(luck: Luck) -> Any:
         return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
     more = {} if kind is StandardSolid else {"exponent": luck.within(0.2, 1.5)}
     return kind(rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0, **more)
-
-
-def words(groups: Groups) -> str:
-    """Return a problem in a few words."""
-    material: Any = groups.material
-    traction: Any = groups.traction
-    if groups.in_plane_strain:
-        what = (
-            f"punch {groups.geometry.half_width:.3g} on {groups.body.thickness:.3g} "
-            f"{type(groups.body.base).__name__.lower()}, cohesion {groups.cohesion:.2g}"
-        )
-    else:
-        shape: Any = groups.geometry
-        what = f"{shape.word}, mu {groups.tabor:.3g} (effective {groups.effective_tabor:.3g})"
-        if isinstance(groups.body, Layer):
-            what += f" on {groups.body.thickness:.3g} {groups.body.base}"
-    numbers = {n: getattr(traction, n) for n in ("decay", "rise", "fall") if hasattr(traction, n)}
-    of_law = "".join(f" {name} {value:.2g}" for name, value in numbers.items())
-    machine = [_brief(groups.start), *map(_brief, groups.moves)]
-    machine += [] if groups.rate is None else [f"pull {groups.rate:.3g}"]
-    machine += [] if groups.stiffness is None else [f"spring {groups.stiffness:.2g}"]
-    return (
-        f"{what}; {traction.word}{of_law} strength {traction.strength:.3g}; "
-        f"{material.word} k {material.modulus_ratio:.3g}; {', '.join(machine)}"
-    )
-
-
-def _brief(noun: Any) -> str:
-    """Return a start or a move as its name and its numbers."""
-    values = [_brief(v) if hasattr(v, "__dict__") else v for v in vars(noun).values()]
-    said = " ".join(v if isinstance(v, str) else f"{v:.3g}" for v in values)
-    return f"{type(noun).__name__} {said}"
 
 
 def drawn(seed: int, number: int) -> Groups:

@@ -1,8 +1,7 @@
 """Remake the table of elastic pull-off of a Lennard-Jones sphere: force and work against mu.
 
 Runs the solver at the Chebyshev points of ln mu between 0.01 and 10 from zero force to the force
-minimum, and prints the rows of `viscotack.theory.elastic._lennard_jones_table`; with --check also
-the difference between table and solver halfway between the points.
+minimum, and prints the rows of `viscotack.theory.elastic._lennard_jones_table`.
 
 Time: about ten minutes on one core, nearly all of it for mu above 3.
 """
@@ -35,7 +34,6 @@ def pulled(tabor, accuracy):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--accuracy", type=float, default=1e-4)
-    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     for tabor in points(DEGREE):
         force, work, *errors = pulled(tabor, options.accuracy)
@@ -43,14 +41,6 @@ def main():
             f"    ({tabor:.15g}, {force:.8f}, {work:.7f}),  # {errors[0]:.0e} {errors[1]:.0e}",
             flush=True,
         )
-    if options.check:
-        from viscotack.theory import lennard_jones
-
-        for tabor in np.sqrt(points(DEGREE)[1:] * points(DEGREE)[:-1]):
-            force, work, *_ = pulled(tabor, options.accuracy)
-            off = lennard_jones.pull_off_ratio(tabor) / force - 1
-            off_work = lennard_jones.work_ratio(tabor) / work - 1
-            print(f"mu = {tabor:.4g}: force {off:+.1e}, work {off_work:+.1e}", flush=True)
 
 
 if __name__ == "__main__":

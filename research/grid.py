@@ -1,10 +1,9 @@
 """The grid beside contacts of revolution and beside itself on finer pixels.
 
 python -m research.grid spheres           # forces, works and processor time of 22 spheres
-python -m research.grid pixels            # errors of the force by pixels per zone
 python -m research.grid trust --seed 1    # stated errors of drawn spheres
+python -m research.grid rough --seed 1    # and of drawn rough maps
 python -m research.grid superposition     # asperities by themselves beside the grid
-python -m research.grid criteria --seed 5 --count 24  # the bearing area beside the grid
 python -m research.grid size              # time and memory by the number of pixels
 """
 
@@ -98,26 +97,6 @@ def spheres(given):
 
     row("approach", 1.0, 0.1, 1e-4, history, given.pixels)
     row("spring", 1.0, 0.1, 1e-4, lambda F: history(F, 0.3), given.pixels)
-
-
-def pixels(given):
-    """Show the error of the force by the number of pixels in a zone."""
-    print("mu    k    px/zone  force      steps  jumps")
-    for tabor, k, side in product((1.0, 2.0), (1, 0.1), (20, 28, 40, 56, 80)):
-        half, material = 7.0, solid(k)
-
-        def test(F):
-            return Retraction(start=AtForce(0.3 * F), speed=1e-5)
-
-        problem, exact, unit = of_sphere(tabor, material, test, round(side * tabor**1.5), half)
-        found = pull(problem, estimate_error=False, force_coarse=True)
-        result = vt.solve(exact, until="detached", estimate_error=False, accuracy=1e-3)
-        force = found.pull_off_force / (unit * vt.pull_off_force(result)) - 1
-        print(
-            f"{tabor:<5g} {k:<4g} {problem.zone.pixels:7.2f} {100 * force:+8.3f} % "
-            f"{found.statistics['steps']:6.0f} {len(found.events):5d}",
-            flush=True,
-        )
 
 
 def drawn_map(rng, pixels, law_length):
@@ -272,8 +251,8 @@ def superposition(given):
     """Compare superposition with the grid, by the share of the surface around contacts."""
     rng = np.random.default_rng(given.seed)
     print("k    speed   slope   U/dg  theta touching  share  force, grid  over grid CPU, grid s")
-    rows = []
-    while len(rows) < given.count:
+    done = 0
+    while done < given.count:
         try:
             problem = of_asperities(rng, given.pixels)
             began = process_time()
@@ -291,60 +270,12 @@ def superposition(given):
         ratio = found.pull_off_force / better.pull_off_force
         k, measures = problem.material.modulus_ratio, stickiness(problem)
         slope = roughness(problem.surface).rms_slope
-        rows.append((k, found.share, ratio))
         speed = problem.protocol.speed
+        done += 1
         print(
             f"{k:<4g} {speed:.1e} {slope:6.3f} {measures.full_contact:6.2f} "
             f"{measures.fuller_tabor:6.2f} {found.touching:6d} {found.share:9.3f} "
             f"{better.pull_off_force:11.3g} N {ratio:10.3f} {spent:8.1f} {grid:6.1f}",
-            flush=True,
-        )
-    if given.plot:
-        import matplotlib.pyplot as plt
-
-        _, axes = plt.subplots(figsize=(5.6, 3.6), layout="constrained")
-        for k, mark in ((1.0, "o"), (0.3, "s"), (0.1, "^")):
-            at = [(share, ratio) for each, share, ratio in rows if each == k]
-            if at:
-                axes.plot(*zip(*at, strict=True), mark, label=f"modulus ratio {k:g}")
-        axes.axhline(1, color="0.5", lw=0.8)
-        axes.set(xscale="log", yscale="log")
-        axes.set_xlabel("share of the surface around contacts")
-        axes.set_ylabel("pull-off force over that of the grid")
-        axes.legend()
-        plt.savefig(given.plot, dpi=150)
-
-
-def criteria(given):
-    """Compare the pull-off of drawn elastic maps by the bearing area with the grid."""
-    rng = np.random.default_rng(given.seed)
-    print("energy of full contact  Pastewka-Robbins  stress over strength  bearing area over grid")
-    done = 0
-    while done < given.count:
-        zone, pixel = rng.uniform(4, 40), rng.uniform(2e-6, 10e-6)
-        rms = GAP * 10 ** rng.uniform(-0.3, 0.9)
-        work = solid(1).contact_modulus * GAP**2 * 0.75 / (zone * pixel)
-        law = vt.LennardJones(work_of_adhesion=work, equilibrium_gap=GAP)
-        surface = self_affine(
-            48,
-            pixel,
-            hurst=rng.uniform(0.3, 1),
-            rms_height=rms,
-            seed=int(rng.integers(1 << 30)),
-            roll_off=48 * pixel * rng.choice([0.5, 1]),
-            shortest=pixel * rng.choice([8, 12, 16]),
-        )
-        test = Retraction(start=AtForce(0.01 * law.strength * surface.area), speed=1e-6)
-        try:
-            problem = RoughProblem(surface=surface, material=solid(1), traction=law, protocol=test)
-        except InputError:  # too steep
-            continue
-        measures, found = stickiness(problem), pull(problem, estimate_error=False)
-        done += 1
-        print(
-            f"{measures.full_contact:22.2f} {measures.pastewka_robbins:17.2f} "
-            f"{found.pull_off_stress / law.strength:21.4f} "
-            f"{(measures.bearing_area_stress or 0) / found.pull_off_stress:23.3f}",
             flush=True,
         )
 
@@ -369,7 +300,7 @@ def size(given):
         )
 
 
-def of_size(side, periodic=True):
+def of_size(side):
     """Return the problem whose cost by the size of the grid is measured."""
     surface = self_affine(
         side,
@@ -379,7 +310,6 @@ def of_size(side, periodic=True):
         seed=4,
         roll_off=640e-6,
         shortest=80e-6,
-        periodic=periodic,
     )
     law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
     test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
@@ -389,29 +319,20 @@ def of_size(side, periodic=True):
     return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
 
 
-PARTS = (
-    "spheres",
-    "pixels",
-    "trust",
-    "rough",
-    "superposition",
-    "criteria",
-    "size",
-)
+PARTS = (spheres, trust, rough, superposition, size)
 
 
 def main():
     """Run one part."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("part", choices=PARTS)
+    parts = {part.__name__: part for part in PARTS}
+    parser.add_argument("part", choices=parts)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--pixels", type=int, default=64)
     parser.add_argument("--limit", type=float, default=60.0)
-    parser.add_argument("--free", action="store_true", help="maps without neighbours")
-    parser.add_argument("--plot", help="picture of superposition")
     given = parser.parse_args()
-    globals()[given.part](given)
+    parts[given.part](given)
     return 0
 
 

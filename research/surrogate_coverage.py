@@ -5,8 +5,6 @@
 compared at every simulated step between zero force (or a start in tension) and the pull-off.
 """
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from typing import Any
@@ -28,51 +26,30 @@ OF, SILENT = ("force", "work", "curve"), 0.1
 class Judged:
     """One prediction beside its simulation.
 
-    Attributes
-    ----------
-    case : Case
-    method : str
-        Name of the tier; "" if it abstains.
-    why : str
-    ratio : ndarray, shape (3,)
-        Errors of `OF` over the half widths of their intervals on that side; nan where not
-        predicted.
-    off : ndarray, shape (2,)
-        Relative errors of force and work.
-    joint : float
-        1 if force, work and curve lie in the joint intervals, otherwise 0; nan without them.
+    `ratio` has the errors of `OF` over the half widths of their intervals on that side, nan where
+    not predicted; `off` the relative errors of force and work; `joint` is 1 if force, work and
+    curve lie in the joint intervals, otherwise 0, nan without them.
     """
 
     case: Case
-    method: str
-    why: str
     ratio: Array
     off: Array
     joint: float
-
-
-def answered(case: Case) -> bool:
-    """Whether the surrogates give a force of a case, so that its label is needed."""
-    try:
-        predict(case.problem, budget=AT_ONCE)
-    except OutOfRange:
-        return False
-    return True
 
 
 def judged(case: Case, label: dict[str, Any]) -> Judged:
     """Compare the prediction of a case with its label, which may be empty if there is none."""
     try:
         said, joint = (predict(case.problem, budget=AT_ONCE, joint=x) for x in (False, True))
-    except OutOfRange as reason:
+    except OutOfRange:
         none = np.full(len(OF), np.nan)
-        return Judged(case, "", str(reason), none, none[:2], np.nan)
+        return Judged(case, none, none[:2], np.nan)
     together = np.max(ratios(joint, label)) <= 1 if joint.joint else np.nan
     off = np.full(2, np.nan)
     off[0] = abs(said.pull_off_force / label["force"] - 1)
     if said.work_to_pull_off is not None:
         off[1] = abs(said.work_to_pull_off / label["work"] - 1)
-    return Judged(case, said.method, said.why, ratios(said, label), off, float(together))
+    return Judged(case, ratios(said, label), off, float(together))
 
 
 def ratios(said: Prediction, label: dict[str, Any]) -> Array:
@@ -132,11 +109,10 @@ def main() -> None:
     """Judge and print a table."""
     parser = argparse.ArgumentParser(description=__doc__)
     add_draw(parser)
-    parser.add_argument("--known", action="store_true", help="only cases with a stored label")
     parser.add_argument("--worst", type=int, default=0, help="print so many of the worst cases")
     given = parser.parse_args()
     cases = drawn(given.seed, counts_of(given.counts))
-    known = labelled(cases, given.labels, given.accuracy, missing=not given.known)
+    known = labelled(cases, given.labels, given.accuracy)
     found = [judged(case, label) for case, label in known if "failed" not in label]
     print(table(found))
     found.sort(key=lambda one: -float(np.max(np.nan_to_num(one.ratio[:2]))))

@@ -6,7 +6,6 @@ precision: limits, networks, curves and intervals. It accepts rows outside the r
 """
 
 import os
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -64,21 +63,14 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     ``OUTPUTS``, of shape (n,) or (n, columns), intervals at a confidence of 0.9. Units, ranges,
     version and licence are in the file.
 
-    Parameters
-    ----------
-    surrogate : Surrogate
-        Surrogate to export; ``store.shipped()`` is the one of the package.
-    path : path
-        Output file; an existing file is replaced.
-
-    Raises
-    ------
-    ModuleNotFoundError
-        If onnx is not installed.
-    ValueError
-        If the surrogate is not one of a sphere on power laws.
+    Only surrogates of a sphere on power laws can be exported.
     """
-    onnx = _onnx()
+    try:
+        import onnx
+    except ImportError:
+        raise ModuleNotFoundError(
+            "the export needs onnx; install it with: python -m pip install onnx"
+        ) from None
     if surrogate.contact is not SphereContact:
         raise InputError(
             "only surrogates of a sphere on power laws can be exported, got one of the contact "
@@ -86,7 +78,7 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
         )
     graph = Graph()
     row = np.sqrt([low * high for low, high in surrogate.limits.values()])
-    for name, found in _outputs(surrogate, graph, graph.input("groups", row[None])).items():
+    for name, found in outputs(surrogate, graph.input("groups", row[None])).items():
         graph.named(found, name)
     helper, double, truth = onnx.helper, onnx.TensorProto.DOUBLE, onnx.TensorProto.BOOL
     words = "one case a row: " + "; ".join(f"{n}, {text}" for n, text in INPUTS.items())
@@ -115,8 +107,8 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     write_whole(path, model.SerializeToString())
 
 
-def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, Any]:
-    """Return the outputs of a surrogate's methods for a traced input."""
+def outputs(surrogate: Surrogate, groups: Any) -> dict[str, Any]:
+    """Return what a surrogate says of groups, traced or of NumPy, by name."""
     answers = surrogate.evaluate(groups)
     between = surrogate.intervals(groups, answers, confidence=CONFIDENCE)
     curves = surrogate.curves(groups, answers)
@@ -145,13 +137,3 @@ def _facts(surrogate: Surrogate) -> dict[str, str]:
         low, high = surrogate.limits[name]
         facts[f"input.{name}"] = f"{text}, {low:g} to {high:g}"
     return facts | {f"output.{name}": text for name, (_, text) in OUTPUTS.items()}
-
-
-def _onnx() -> Any:
-    try:
-        import onnx
-    except ImportError:
-        raise ModuleNotFoundError(
-            "the export needs onnx; install it with: python -m pip install onnx"
-        ) from None
-    return onnx

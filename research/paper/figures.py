@@ -212,19 +212,12 @@ def _cycle(rate, tabor=30.0):
         return np.nan
 
 
-FIGURES = {
-    "energies": energies,
-    "zones": zones,
-    "coefficients": coefficients,
-    "quasi_steady": quasi_steady,
-    "factor": factor,
-    "contacts": contacts,
-}
+FIGURES = (energies, zones, coefficients, quasi_steady, factor, contacts)
 
 
 def write(folder):
     """Write all figures into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    for name, draw in FIGURES.items():
+    for draw in FIGURES:
         with mpl.rc_context(STYLE):
-            draw().savefig(folder / f"{name}.png")
+            draw().savefig(folder / f"{draw.__name__}.png")

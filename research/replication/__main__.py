@@ -8,15 +8,13 @@ import typer
 from typer import Option
 
 from .archive import file_of
-from .bench import Hands, Numbers
-from .figures.catalogue import Figure, figures
-from .kept import difference, kept, path_of, without_errors
+from .bench import Bench, picture
+from .figures.catalogue import figures
+from .figures.catalogue import named as figure_named
+from .kept import Numbers, difference, kept, path_of, without_errors
 from .ledger.claim import named
 from .ledger.page import PAGE, page
 from .ledger.page import ledger as whole_ledger
-from .making import Maker, picture
-from .pictures import PICTURES
-from .pictures import write as write_gallery
 from .table import read_detachments
 from .words import application, wrong_input
 
@@ -64,7 +62,7 @@ def contents(
     Example: python -m research.replication figure 4.6
     """
     if listed:
-        typer.echo("\n\n".join(each.words() for each in figures()))
+        typer.echo("\n\n".join(each.words() for each in figures().values()))
     if every:
         with wrong_input():
             _all(afresh, workers, out, archive)
@@ -86,14 +84,14 @@ def figure(
 
     Example: python -m research.replication figure 4.6 --afresh
     """
-    with wrong_input(), Hands(workers) as hands:
-        drawn = Figure(name)
+    options = {"afresh": afresh, "store": keep, "archive": archive, "say": _progress}
+    with wrong_input(), Bench(workers, **options) as bench:
+        drawn = figure_named(name)
         before = kept(name) if path_of(name).exists() else None
-        maker = Maker(hands, afresh=afresh, store=keep, archive=archive, say=_progress)
-        path = picture(name, maker.of(name), out, ending="svg" if svg else "png")
+        path = picture(name, bench.of(name), out, ending="svg" if svg else "png")
         typer.echo(drawn.words())
     if afresh and before is not None:
-        typer.echo(f"  Beside the numbers that were kept: {_beside(maker, name, before)}")
+        typer.echo(f"  Beside the numbers that were kept: {_beside(bench, name, before)}")
     typer.echo(f"wrote {path}")
 
 
@@ -108,10 +106,9 @@ def claim(
 
     Example: python -m research.replication claim alpha --afresh
     """
-    with wrong_input(), Hands(workers) as hands:
+    with wrong_input(), Bench(workers, afresh=afresh, archive=archive, say=_progress) as bench:
         one = named(name)
-        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
-        found, standing = one.judged(maker.of)
+        found, standing = one.judged(bench.of)
         typer.echo(f"{one.says} ({one.place})")
         typer.echo(f"  thesis: {one.thesis}\n  here: {found.said()}")
         typer.echo(f"  {one.verdict}, {standing}: {one.evidence}")
@@ -144,25 +141,33 @@ def _write_ledger(text: str, out: Path) -> None:
 @app.command()
 def gallery() -> None:
     """Write the pictures of research/replication/gallery from the kept numbers."""
-    with wrong_input():
-        write_gallery()
-    typer.echo(f"wrote {PICTURES}")
+    from PIL import Image
+
+    folder = Path(__file__).with_name("gallery")
+    for name in figures():
+        path = picture(name, kept(name), folder, dpi=64)
+        with Image.open(path) as drawn:
+            # the 256 colours that lines and words need
+            few = drawn.convert("RGB").quantize(
+                256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE
+            )
+        few.save(path, optimize=True)
+    typer.echo(f"wrote {folder}")
 
 
 def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
     """Draw all there is, and measure all claims."""
     began = perf_counter()
-    with Hands(workers) as hands:
-        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
-        for each in figures():
-            path = picture(each.name, maker.of(each.name), out)
-            beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
+    with Bench(workers, afresh=afresh, archive=archive, say=_progress) as bench:
+        for name in figures():
+            path = picture(name, bench.of(name), out)
+            beside = f", {_beside(bench, name, kept(name))}" if afresh else ""
             typer.echo(f"{path}{beside}")
         if afresh and archive is not None:
             _published(archive, out, workers)
-        _write_ledger(whole_ledger(maker.of), out)
+        _write_ledger(whole_ledger(bench.of), out)
         typer.echo(f"{out / 'ledger.md'}: every verdict stands")
-        spent = sum(maker.seconds.values()) if afresh else hands.seconds
+        spent = sum(bench.spent.values()) if afresh else bench.seconds
     typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
 
 
@@ -185,9 +190,9 @@ def _published(archive: Path, out: Path, workers: int) -> None:
     typer.echo("".join(f"  {line}\n" for line in lines), nl=False)
 
 
-def _beside(maker: Maker, name: str, before: Numbers) -> str:
+def _beside(bench: Bench, name: str, before: Numbers) -> str:
     """Return how far numbers made now are from those that were kept, and which most."""
-    now, before = without_errors(maker.of(name)), without_errors(before)
+    now, before = without_errors(bench.of(name)), without_errors(before)
     off = difference(now, before)
     if off == float("inf"):
         return "of another kind"

@@ -6,8 +6,6 @@ was added, and 85 that it lacks, ``Data_Files/comb_1to9.csv``. Nothing of it is 
 sample (tests/data/README.md) and these checksums.
 """
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,16 +25,10 @@ CHECKSUMS = {
 
 @dataclass(frozen=True, eq=False)
 class Learned:
-    """The rows that chapter 5 learned from.
+    """The rows that chapter 5 learned from, in the authors' order and units.
 
-    Attributes
-    ----------
-    inputs : ndarray, shape (n, 5)
-        log10 rate, log10 depth, Tabor number, log10 modulus ratio, exponent, in the authors' order.
-    descriptor : ndarray, shape (n,)
-        Crack of Persson and Brener at the speed of Eq. 4.24, not its logarithm.
-    force, work : ndarray, shape (n,)
-        log10 of the pull-off force [1.5 pi R dg0] and of the work [pi R dg0 h0].
+    Inputs are log10 rate, log10 depth, Tabor number, log10 modulus ratio, exponent; the descriptor
+    is not a logarithm; force [1.5 pi R dg0] and work [pi R dg0 h0] are log10.
     """
 
     inputs: Array
@@ -50,13 +42,7 @@ class Learned:
 
 
 def file_of(archive: Path, name: str) -> Path:
-    """Return a file of the archive.
-
-    Raises
-    ------
-    ValueError
-        If there is no such file, or it is not the one that was measured here.
-    """
+    """Return a file of the archive; refused if it is not the one that was measured here."""
     path = archive / "Data_Files" / name
     if not path.is_file():
         raise InputError(f"{archive} has no Data_Files/{name}; give a checkout of the archive")

@@ -4,8 +4,6 @@ Arrays become lists, and lists of numbers arrays again; nan is null. Nothing is 
 file is data whoever wrote it.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -14,8 +12,7 @@ import numpy as np
 
 from viscotack import InputError
 
-from .bench import Numbers
-
+Numbers = dict[str, Any]
 FOLDER = Path(__file__).resolve().parent / "kept"
 DIGITS = 5
 # Below this part of the largest number of an array a difference says nothing.
@@ -23,7 +20,7 @@ _SMALL = 1e-6
 
 
 def path_of(name: str) -> Path:
-    """Return the file of a figure's numbers, of those that are kept unless a folder is given."""
+    """Return the file of a figure's numbers."""
     return FOLDER / f"{name.replace('.', '_')}.json"
 
 
@@ -39,13 +36,7 @@ def keep(name: str, numbers: Numbers, *, seconds: float) -> Path:
 
 
 def kept(name: str) -> Numbers:
-    """Return the kept numbers of a figure, or those in a folder.
-
-    Raises
-    ------
-    ValueError
-        If there are none.
-    """
+    """Return the kept numbers of a figure."""
     return _arrays(_content(name)["numbers"])
 
 

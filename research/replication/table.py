@@ -1,6 +1,5 @@
 """Rows of simulated detachments from a file: those published by others, or of a campaign."""
 
-import csv
 import os
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -71,95 +70,37 @@ class Detachments:
 
 
 def read_detachments(path: str | os.PathLike[str]) -> Detachments:
-    """Return the rows of a file.
+    """Return the rows of a file, CSV, or Parquet by its ending.
 
-    Parameters
-    ----------
-    path : path
-        CSV, or Parquet by its ending, with the columns tabor, modulus_ratio, exponent, preload,
-        rate, pull_off_force and work_to_pull_off as ``viscotack campaign export`` writes them; or
-        CSV with those of the table that the authors of the thesis published (runload, alphaload,
-        mu, k, n, outputAmplification, workofSepration). Other columns are left alone.
-
-    Raises
-    ------
-    ValueError
-        If there is no such file, columns are missing, or a number is not positive and finite, with
-        its row.
+    Its columns are tabor, modulus_ratio, exponent, preload, rate, pull_off_force and
+    work_to_pull_off as ``viscotack campaign export`` writes them, or those of the table that the
+    authors of the thesis published. Other columns are left alone. A missing column and a number
+    that has no logarithm are refused, by its row.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise InputError(
-            f"there is no file {path}; take the table that the authors of the thesis published, "
-            "from Data_Files of https://github.com/alimaghamii/ML4Adh, or the sample of it, "
-            f"{SAMPLE}"
-        )
-    columns = _parquet(path) if path.suffix == ".parquet" else _csv(path)
-    if "outputAmplification" in columns:
-        scaled = {name: (old, factor) for name, (old, factor) in _PUBLISHED.items()}
-    else:
-        scaled = {name: (name, 1.0) for name in _PUBLISHED}
-    missing = [old for old, _ in scaled.values() if old not in columns]
-    if missing:
-        raise InputError(
-            f"{path} has no column {', '.join(missing)}; it needs {', '.join(_PUBLISHED)}, or the "
-            "columns of the published table"
-        )
-    values = {
-        name: _numbers(path, old, columns[old], factor) for name, (old, factor) in scaled.items()
-    }
-    work = columns[scaled["work_to_pull_off"][0]]
-    known = np.array([float(w) != _NO_WORK for w in work])
-    points = None
-    if all(name in columns for name in KEY_POINTS):
-        force = -values["pull_off_force"]
-        read = [_column(path, name, columns[name]) for name in KEY_POINTS]
-        points = np.stack([*read, force], axis=1)
-    return Detachments(**values, work_known=known, key_points=points)
-
-
-def _csv(path: Path) -> dict[str, list[str]]:
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        rows = list(csv.reader(file))
-    if len(rows) < 2:
-        raise InputError(f"{path} has no rows")
-    width = len(rows[0])
-    short = next((i for i, row in enumerate(rows) if len(row) != width), None)
-    if short is not None:
-        raise InputError(f"{path}, line {short + 1}: {len(rows[short])} values, expected {width}")
-    return {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
-
-
-def _parquet(path: Path) -> dict[str, list[Any]]:
     try:
-        from pyarrow import parquet
+        from pyarrow import csv, parquet
     except ImportError:
         raise ModuleNotFoundError(
-            f"reading {path} needs pyarrow; install it with pip install 'viscotack[campaign]'"
+            "tables are read by pyarrow; install it with pip install 'viscotack[campaign]'"
         ) from None
-    table = parquet.ParquetFile(path).read()
-    if not table.num_rows:
-        raise InputError(f"{path} has no rows")
-    return {name: table.column(name).to_pylist() for name in table.column_names}
-
-
-def _column(path: Path, name: str, values: list[Any]) -> Array:
-    found = np.empty(len(values))
-    for i, value in enumerate(values):
-        try:
-            found[i] = float(value)
-        except (TypeError, ValueError):
-            raise InputError(f"{path}, row {i + 1}: {name} is {value!r}, not a number") from None
-    return found
-
-
-def _numbers(path: Path, name: str, values: list[Any], factor: float) -> Array:
-    found = factor * _column(path, name, values)
-    wrong = np.flatnonzero(~(np.isfinite(found) & (found > 0)))
-    if wrong.size:
-        raise InputError(
-            f"{path}: {name} must be {'negative' if factor < 0 else 'positive'} and finite, for "
-            f"its logarithm is learned; {wrong.size} rows are not, the first is row {wrong[0] + 1} "
-            f"with {values[wrong[0]]!r}; leave them out"
-        )
-    return found
+    read = parquet.read_table if Path(path).suffix == ".parquet" else csv.read_csv
+    table = read(os.fspath(path))
+    published = "outputAmplification" in table.column_names
+    values = {}
+    for name, (old, factor) in _PUBLISHED.items():
+        column, factor = (old, factor) if published else (name, 1.0)
+        if column not in table.column_names:
+            raise InputError(f"{path} has no column {column}")
+        values[name] = factor * table.column(column).to_numpy().astype(float)
+        wrong = np.flatnonzero(~(np.isfinite(values[name]) & (values[name] > 0)))
+        if wrong.size:
+            raise InputError(
+                f"{path}, row {wrong[0] + 1}: {column} has no logarithm, which is learned; leave "
+                f"such rows out ({wrong.size})"
+            )
+    work = table.column("workofSepration" if published else "work_to_pull_off").to_numpy()
+    points = None
+    if all(name in table.column_names for name in KEY_POINTS):
+        read_points = [table.column(name).to_numpy().astype(float) for name in KEY_POINTS]
+        points = np.stack([*read_points, -values["pull_off_force"]], axis=1)
+    return Detachments(**values, work_known=work != _NO_WORK, key_points=points)

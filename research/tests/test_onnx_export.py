@@ -6,7 +6,7 @@ import pytest
 pytest.importorskip("onnx", reason="pip install onnx")
 runtime = pytest.importorskip("onnxruntime", reason="pip install onnxruntime")
 
-from research.onnx_export import export  # noqa: E402
+from research.onnx_export.file import export, outputs  # noqa: E402
 from viscotack.prediction.surrogate import physics  # noqa: E402
 from viscotack.prediction.surrogate.moving import moved  # noqa: E402
 from viscotack.prediction.surrogate.store import shipped  # noqa: E402
@@ -31,24 +31,7 @@ def assert_same_digits(exported, surrogate, groups):
     """Compare all outputs; curves relative to the largest number of their row."""
     names = [output.name for output in exported.get_outputs()]
     found = dict(zip(names, exported.run(None, {"groups": groups}), strict=True))
-    answers = surrogate.evaluate(groups)
-    intervals = surrogate.intervals(groups, answers, confidence=0.9)
-    curves = surrogate.curves(groups, answers)
-    wanted = {
-        "pull_off_force": answers.pull_off_force,
-        "work_to_pull_off": answers.work_to_pull_off,
-        "force_interval": intervals.pull_off_force,
-        "work_interval": intervals.work_to_pull_off,
-        "inside": surrogate.inside(groups),
-        "doubtful": surrogate.doubtful(groups, answers),
-        "force_slopes": surrogate.slopes(groups)[0],
-        "work_slopes": surrogate.slopes(groups)[1],
-        "curve_depth": curves.depth,
-        "curve_force": curves.force,
-        "curve_contact_radius": curves.contact_radius,
-        "curve_band": intervals.curve,
-        "travel_interval": intervals.travel,
-    }
+    wanted = outputs(surrogate, groups)
     assert names == list(wanted)
     for name, value in wanted.items():
         assert found[name].shape == value.shape and found[name].dtype == value.dtype, name

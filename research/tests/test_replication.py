@@ -9,14 +9,13 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from research.replication.__main__ import app
-from research.replication.bench import Hands
-from research.replication.figures import figure_4_3, figure_5_2
+from research.replication.bench import Bench
+from research.replication.figures import retractions, starts
 from research.replication.figures.cases import Work, detached, punch
-from research.replication.figures.catalogue import BESIDE, THEORY, THESIS
+from research.replication.figures.catalogue import figures
 from research.replication.kept import difference, kept
 from research.replication.ledger.claim import Measured, named
 from research.replication.ledger.page import PAGE, page
-from research.replication.making import Maker
 from research.replication.published.compare import compare
 from research.replication.second_code import compare as second
 from research.replication.second_code import half_plane
@@ -63,19 +62,18 @@ def test_an_unknown_figure_or_claim_is_refused():
     assert asked("figure", "9.9")[0] == asked("claim", "alfa")[0] == 2
 
 
-@pytest.mark.parametrize("name", THEORY)
+@pytest.mark.parametrize("name", [each.name for each in figures().values() if each.theory])
 def test_theory_is_what_it_was(name):
     """Regression: the kept numbers have five digits."""
-    with Hands(1) as hands:
-        assert difference(kept(name), Maker(hands, afresh=True).of(name)) < 2e-4
+    assert difference(kept(name), Bench(afresh=True).of(name)) < 2e-4
 
 
 def test_simulations_are_what_they_were():
     """Regression, within what each states as its own error."""
-    one = figure_4_3.unloaded(figure_4_3.PANELS["start"][1])
+    one = starts.unloaded(starts.PANELS["start"][1])
     then = kept("4.3")["start"]["curves"][1]
     assert one["pull_off_force"] == pytest.approx(then["pull_off_force"], rel=then["error"])
-    work = figure_5_2.unloaded(figure_5_2.PANELS["saturation"][0])
+    work = retractions.unloaded(retractions.PANELS["saturation"][0])
     then = kept("5.2")["saturation"]["curves"][0]
     assert work["work"] == pytest.approx(then["work"], rel=then["work_error"])
     numbers = kept("3.8")
@@ -120,4 +118,4 @@ def test_the_second_code_agrees_with_the_package():
 def test_everything_is_drawn_and_measured_from_kept_numbers(tmp_path):
     assert asked("--all", "--workers", 1, "--out", tmp_path)[0] == 0
     drawn = {path.stem for path in tmp_path.glob("*.png")}
-    assert drawn == {name.replace(".", "_") for name in (*THESIS, *BESIDE)}
+    assert drawn == {name.replace(".", "_") for name in figures()}

@@ -21,6 +21,11 @@ SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 
 
 @pytest.fixture(scope="module")
+def jax():
+    return pytest.importorskip("jax", reason="networks are fitted with JAX")
+
+
+@pytest.fixture(scope="module")
 def rows():
     return read("chosen")
 
@@ -68,16 +73,14 @@ def test_all_that_is_to_be_learned_is_finite(name):
         assert np.all(np.isfinite(values))
 
 
-def test_gaps_in_the_rows_are_refused():
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_gaps_in_the_rows_are_refused(jax):
     x = np.linspace(-1, 1, 20)[:, None]
     target = np.where(x > 0.9, np.nan, x)
     with pytest.raises(ValueError, match="not finite"):
         fit(Task(x, target, np.ones_like(x)), SMALL, seed=0)
 
 
-def test_a_network_learns_what_it_is_told_and_again_the_same():
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_a_network_learns_what_it_is_told_and_again_the_same(jax):
     x = np.random.default_rng(0).uniform(-1, 1, (300, 2))
     target = (np.sin(2 * x[:, 0]) * x[:, 1])[:, None]
     task = Task(x, target, np.ones_like(target))
@@ -87,8 +90,7 @@ def test_a_network_learns_what_it_is_told_and_again_the_same():
     assert not np.array_equal(one.weights[0], fit(task, SMALL, seed=2).weights[0])
 
 
-def test_what_is_fitted_between_limits_is_what_numpy_puts_between_them():
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_what_is_fitted_between_limits_is_what_numpy_puts_between_them(jax):
     x = np.random.default_rng(0).uniform(-1, 1, (300, 1))
     low, high = np.zeros(300), 1 + x[:, 0] ** 2
     target = (high * contact.share(0.3 * x[:, 0] - 0.1))[:, None]
@@ -97,8 +99,7 @@ def test_what_is_fitted_between_limits_is_what_numpy_puts_between_them():
     assert contact.between(low, high, found(x)[0, :, 0]) == pytest.approx(target[:, 0], abs=2e-3)
 
 
-def test_rows_without_weight_do_not_count():
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_rows_without_weight_do_not_count(jax):
     x = np.linspace(-1, 1, 80)[:, None]
     target = np.where(x > 0.5, 100.0, x)
     weight = np.where(x > 0.5, 0.0, 1.0)
@@ -107,8 +108,7 @@ def test_rows_without_weight_do_not_count():
 
 
 @pytest.mark.slow
-def test_a_shop_does_not_fit_twice(tmp_path):
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_a_shop_does_not_fit_twice(tmp_path, jax):
     from research.training.shop import Shop
 
     x = np.linspace(-1, 1, 50)[:, None]
@@ -124,8 +124,7 @@ def test_a_shop_does_not_fit_twice(tmp_path):
     assert len(list(tmp_path.glob("*.npz"))) == 2
 
 
-def test_a_network_learns_what_another_left_over():
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_a_network_learns_what_another_left_over(jax):
     x = np.random.default_rng(0).uniform(-1, 1, (400, 1))
     target = np.sin(3 * x) + 0.01 * np.cos(9 * x)
     task = Task(x, target, np.ones_like(target))
@@ -136,8 +135,7 @@ def test_a_network_learns_what_another_left_over():
     assert second < 0.5 * first
 
 
-def test_a_quantile_has_the_wanted_part_of_the_targets_below():
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_a_quantile_has_the_wanted_part_of_the_targets_below(jax):
     random = np.random.default_rng(0)
     x = random.uniform(-1, 1, (6000, 1))
     target = x + (1.2 + x) * random.normal(size=x.shape)
@@ -174,8 +172,7 @@ def test_intervals_hold_the_share_that_they_promise():
 
 
 @pytest.mark.slow
-def test_the_whole_training_runs_on_few_rows(tmp_path):
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_the_whole_training_runs_on_few_rows(tmp_path, jax):
     from research.training.make import make
     from research.training.train_sphere import parted
 
@@ -201,8 +198,7 @@ def test_rows_that_measure_and_judge_punches_stay_what_they_were_in_a_longer_set
 
 
 @pytest.mark.slow
-def test_the_training_of_punches_runs_on_few_rows(tmp_path):
-    pytest.importorskip("jax", reason="networks are fitted with JAX")
+def test_the_training_of_punches_runs_on_few_rows(tmp_path, jax):
     from research.training.make import make
 
     facts = make("punch", tmp_path, workers=2, quick=True)

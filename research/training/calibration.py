@@ -24,7 +24,7 @@ from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.network import Networks
 from viscotack.prediction.surrogate.trust import CONFIDENCES, OF, Trust
 
-from .fitting import Fit, Task, fit_all
+from .fitting import Fit, Task, fit
 from .joining import together
 from .rows import LEARNED, Rows
 from .scores import errors, labels_of
@@ -74,17 +74,7 @@ class Apart:
 
 
 def judged(surrogate: Surrogate, rows: Rows, given: Any = None) -> Apart:
-    """Return how far a surrogate is off on some rows.
-
-    Parameters
-    ----------
-    surrogate : Surrogate
-        Whose answers and curves they are.
-    rows : Rows
-        What was simulated.
-    given : optional
-        What the surrogate is asked; the groups of the rows if left out.
-    """
+    """Return how far a surrogate is off on some rows, by their groups or what else it is given."""
     tests = surrogate.tests(rows.groups if given is None else given)
     said = surrogate.evaluate(tests)
     found = errors(said, surrogate.curves(tests, said), labels_of(rows))
@@ -108,31 +98,16 @@ def trusted(
     least: Array = LEAST,
     seeds: tuple[Sequence[int], Sequence[int]] = ((0,), (1,)),
 ) -> Surrogate:
-    """Return a surrogate with intervals.
+    """Return a surrogate with intervals, from its errors on rows that it learned from and others.
 
-    Parameters
-    ----------
-    surrogate : Surrogate
-        Whose errors they are.
-    learned : Apart
-        Of rows that it learned from.
-    kept : sequence of Apart
-        Of others, a set each for which intervals are to hold.
-    hard : sequence of Apart
-        Of others, that were sought where errors are large: they tell how far errors reach there,
-        and nothing of how often.
-    how : Fit
-        Of the networks of the reach.
-    least : ndarray, shape (4,)
-        Sizes of errors below which all count alike.
-    seeds : pair of sequences of int
-        Of the networks that learn from each half of the rows kept apart.
+    Intervals are to hold for each set of `kept`. Rows of `hard` were sought where errors are large:
+    they tell how far errors reach there, and nothing of how often. Errors below `least` count
+    alike; `seeds` are of the networks that learn from each half of the rows kept apart.
     """
     halves = [[one.chosen(np.arange(len(one.told)) % 2 == half) for one in kept] for half in (0, 1)]
     tasks = [reach_task(learned, [*half, *hard], least) for half in halves]
-    jobs = [(task, how, seed) for task, some in zip(tasks, seeds, strict=True) for seed in some]
-    found, first = fit_all(jobs), len(seeds[0])
-    members = [together(some) for some in (found[:first], found[first:])]
+    found = [[fit(task, how, seed=i) for i in s] for task, s in zip(tasks, seeds, strict=True)]
+    members = [together(some) for some in found]
     # the sets whose scores come from networks that have not seen them
     pairs = [
         (untested(one), some)

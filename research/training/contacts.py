@@ -5,8 +5,6 @@ Each family is even in the logarithms of its ranges. Spheres are pressed by a fo
 a layer of a standard solid, pressed by a mean stress over dg0 and the range.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

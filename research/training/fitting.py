@@ -1,9 +1,6 @@
 """Networks fitted to rows: gradients by JAX, quasi-Newton steps by SciPy, the same on every run."""
 
-from __future__ import annotations
-
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,28 +75,8 @@ class Task:
     factors: Array | None = None
 
 
-def fit_all(jobs: Sequence[tuple[Task, Fit, int]]) -> list[Networks]:
-    """Return the networks of several tasks, fitted one after the other."""
-    return [fit(task, how, seed=seed) for task, how, seed in jobs]
-
-
 def fit(task: Task, how: Fit, *, seed: int) -> Networks:
-    """Return one network that has learned a task.
-
-    Parameters
-    ----------
-    task : Task
-        What to learn.
-    how : Fit
-        Size, steps, penalty.
-    seed : int
-        Of the weights to begin with.
-
-    Raises
-    ------
-    ModuleNotFoundError
-        Without JAX.
-    """
+    """Return one network that has learned a task, from weights to begin with by a seed."""
     jax = _jax()
     jnp = jax.numpy
     outputs = (task.target if task.factors is None else task.factors).shape[1]

@@ -1,7 +1,6 @@
 """Fresh cases of the surrogates with labels from simulation, drawn from a seed and kept on disk.
 
-`python -m research.training.fresh_cases --seed 41 --labels FOLDER [--counts punches=150]`:
-power laws, other solids and punches, even in the logarithms of their ranges, power laws on the
+Power laws, other solids and punches, even in the logarithms of their ranges, power laws on the
 faces of their range, the region in which a pull-off may have two maxima, power laws at light
 tension, where the sets that networks learned from are less accurate than their intervals are wide,
 three sorts of punches where an adversary found errors, power laws of large Tabor numbers, and
@@ -9,8 +8,6 @@ contacts of engineers. Each case is simulated to its pull-off at an accuracy of 
 light tension) and appended to a file of the folder; a run that was stopped continues. About a third
 of a second a case, more at large Tabor numbers.
 """
-
-from __future__ import annotations
 
 import argparse
 import json
@@ -34,25 +31,46 @@ from viscotack.result.curve import retraction
 from .calibration import Apart
 from .contacts import FAMILIES, contact
 from .contacts import problem as contact_problem
-from .drawing import BOXES
 from .scores import errors
 
+Random = np.random.Generator
+Ends = Sequence[tuple[float, float]]
+# Kind and inputs of a case.
+Drawn = tuple[str, dict[str, float]]
+
 ACCURACY = 5e-4
+# Accuracy of labels where those of the data sets are biased by as much as intervals are wide.
+FINER = {"light tension": 1e-4}
+_DIGITS = 8
 # Numbers of random solids that no data set has; one in eight solids is a stretched exponential.
 _SOLIDS, _STRETCHED = (600_000, STRETCHED), 0.125
 # Decades beyond the times of a solid within which a test may lie.
 _BEYOND = 2.5
 # Tabor number, modulus ratio, depth [h0], and rate times retardation time over depth.
 TWO_PEAKS = ((0.05, 5.0), (1e-4, 1e-2), (20.0, 500.0), (0.5, 2.0))
-# Size, thickness, modulus ratio, stress of the start, and rate times retardation time over depth.
-SOFT_PUNCHES = (
-    ((1.0, 200.0), (10.0, 1000.0), (1e-3, 0.02), (0.1, 10.0), (0.1, 100.0)),
-    ((1.0, 6.0), (100.0, 1000.0), (1e-3, 5e-3), (1.0, 10.0), (0.1, 4.0)),
-)
-SHALLOW_PUNCHES = (1.0, 4.0), (100.0, 1000.0), (1e-3, 4e-3), (1.5e-3, 0.05), (1.0, 30.0)
-WIDE_PUNCHES = (40.0, 200.0), (1.0, 5.0), (0.35, 0.7), (2.0, 10.0), (1.0, 1e4)
-Random = np.random.Generator
-_DIGITS = 8
+# Where intervals of an earlier surrogate held least.
+LIGHT_TENSION = {"tabor": (0.017, 0.074), "modulus_ratio": (7e-4, 0.3), "preload": (0.035, 0.21)}
+# Largest Tabor number of the design of large ones: beyond it a simulation takes minutes.
+LARGEST = 20.0
+# Where an adversary found errors of five half widths of earlier intervals, and of works: size,
+# thickness, modulus ratio, stress of the start, and rate times retardation time over depth.
+_PUNCHES: dict[str, tuple[int, tuple[Ends, ...]]] = {
+    "soft punches": (
+        6,
+        (
+            ((1.0, 200.0), (10.0, 1000.0), (1e-3, 0.02), (0.1, 10.0), (0.1, 100.0)),
+            ((1.0, 6.0), (100.0, 1000.0), (1e-3, 5e-3), (1.0, 10.0), (0.1, 4.0)),
+        ),
+    ),
+    "shallow soft punches": (
+        7,
+        (((1.0, 4.0), (100.0, 1000.0), (1e-3, 4e-3), (1.5e-3, 0.05), (1.0, 30.0)),),
+    ),
+    "wide punches": (
+        9,
+        (((40.0, 200.0), (1.0, 5.0), (0.35, 0.7), (2.0, 10.0), (1.0, 1e4)),),
+    ),
+}
 # Numbers of cases of each design that measure intervals.
 COUNTS = {
     "power laws": 3000,
@@ -65,10 +83,6 @@ COUNTS = {
     "shallow soft punches": 100,
     "wide punches": 200,
 }
-# Largest Tabor number of the design of large ones: beyond it a simulation takes minutes.
-LARGEST = 20.0
-# Accuracy of labels where those of the data sets are biased by as much as intervals are wide.
-FINER = {"light tension": 1e-4}
 
 
 @dataclass(frozen=True)
@@ -100,132 +114,93 @@ def between(random: Random, low: float, high: float) -> float:
     return float(f"{low * (high / low) ** random.random():.{_DIGITS}g}")
 
 
-def power_law(random: Random) -> Case:
-    """Draw a sphere on a power law in the range of the surrogate."""
-    inputs = {name: between(random, *ends) for name, ends in physics.LIMITS.items()}
-    return Case("power laws", "sphere", inputs)
+def _sphere(limits: Mapping[str, tuple[float, float]], random: Random) -> Drawn:
+    """Draw a sphere on a power law in the range of the surrogate, or in a part of it."""
+    ends = {**physics.LIMITS, **limits}
+    return "sphere", {name: between(random, *ends[name]) for name in physics.INPUTS}
 
 
-def on_face(random: Random) -> Case:
+def _on_face(random: Random) -> Drawn:
     """Draw a sphere on a power law with one input at an end of its range."""
-    inputs = power_law(random).inputs
+    kind, inputs = _sphere({}, random)
     name = physics.INPUTS[int(random.integers(len(physics.INPUTS)))]
-    return Case("faces", "sphere", inputs | {name: physics.LIMITS[name][int(random.integers(2))]})
+    return kind, inputs | {name: physics.LIMITS[name][int(random.integers(2))]}
 
 
-def solid(random: Random) -> Case:
-    """Draw a sphere on another solid, its test within or near the times of the solid."""
-    low, high = (STRETCHED, 2 * STRETCHED) if random.random() < _STRETCHED else _SOLIDS
-    number = int(random.integers(low, high))
-    test = {
-        name: between(random, *physics.LIMITS[name])
-        for name in ("tabor", "modulus_ratio", "preload")
-    }
-    _, times = creep_spectrum(number, test["modulus_ratio"])
-    rate = between(random, 10**-_BEYOND / times[-1], 10**_BEYOND / times[0])
-    return Case("other solids", "solid", {**test, "solid": number, "rate": rate})
-
-
-def punch(random: Random) -> Case:
-    """Draw a punch on a layer in the range of the surrogate."""
-    drawn = [
-        between(random, low, high)
-        for low, high in zip(punch_physics.LOW, punch_physics.HIGH, strict=True)
-    ]
-    row = np.array([drawn])
-    drawn[punch_physics.PRELOAD] *= float(punch_physics.compliance(row)[0])
-    inputs = dict(zip(punch_physics.INPUTS, drawn, strict=True))
-    return Case("punches", "punch", {"cohesion": 0.05, **inputs})
-
-
-def soft_punch(random: Random) -> Case:
-    """Draw a punch on a thick, soft layer, pulled about as fast as it relaxes: half of them deep.
-
-    There an adversary found errors of five half widths of earlier intervals.
-    """
-    return _on_layer("soft punches", SOFT_PUNCHES[int(random.random() < 0.5)], random)
-
-
-def shallow_punch(random: Random) -> Case:
-    """Draw a narrow punch on a thick, soft layer from a shallow start.
-
-    There an adversary found errors of works.
-    """
-    return _on_layer("shallow soft punches", SHALLOW_PUNCHES, random)
-
-
-def wide_punch(random: Random) -> Case:
-    """Draw a wide punch on a thin, nearly elastic layer, pulled fast from a deep start.
-
-    There an adversary found errors of five half widths of earlier intervals.
-    """
-    return _on_layer("wide punches", WIDE_PUNCHES, random)
-
-
-def _on_layer(design: str, ends: tuple[tuple[float, float], ...], random: Random) -> Case:
-    size, thickness, ratio, stress, part = (between(random, *each) for each in ends)
-    depth = stress * float(punch_physics.compliance(np.array([[size, thickness]]))[0])
-    drawn = (size, thickness, ratio, depth, part * depth)
-    inputs = dict(zip(punch_physics.INPUTS, drawn, strict=True))
-    return Case(design, "punch", {"cohesion": 0.05, **inputs})
-
-
-def two_peaks(random: Random) -> Case:
-    """Draw a deep pull, about as fast as its bulk relaxes: two in three on standard solids."""
-    tabor, ratio, depth, part = (between(random, *ends) for ends in TWO_PEAKS)
-    test = {"tabor": tabor, "modulus_ratio": ratio, "preload": depth}
-    sort = random.random()
-    if sort < 1 / 6:
-        sharp = {"exponent": between(random, 0.7, 2.0), "rate": part * depth}
-        return Case("two peaks", "sphere", test | sharp)
-    number, time = _with_few_times(random, ratio, 1 if sort < 5 / 6 else 4)
-    return Case("two peaks", "solid", {**test, "solid": number, "rate": part * depth / time})
-
-
-def light_tension(random: Random) -> Case:
-    """Draw a sphere on a power law with a small Tabor number from a start in light tension."""
-    ends = physics.LIMITS | BOXES["box of light tension"]
-    inputs = {name: between(random, *ends[name]) for name in physics.INPUTS}
-    return Case("light tension", "sphere", inputs)
-
-
-def large_tabor(random: Random) -> Case:
+def _large_tabor(random: Random) -> Drawn:
     """Draw a sphere on a power law with a Tabor number from 10 to ``LARGEST``."""
     ends = zip(physics.INPUTS, short_range.LOW, short_range.HIGH, strict=True)
     inputs = {name: between(random, low, high) for name, low, high in ends}
     inputs["tabor"] = between(random, short_range.LOW[0], LARGEST)
     for name in ("preload", "rate"):
         inputs[name] *= inputs["tabor"]
-    return Case("large Tabor numbers", "sphere", inputs)
+    return "sphere", inputs
 
 
-def of_engineers(family: str, random: Random) -> Case:
-    """Draw a contact of engineers."""
-    return Case(family, "contact", contact(family, random))
+def _solid(random: Random) -> Drawn:
+    """Draw a sphere on another solid, its test within or near the times of the solid."""
+    low, high = (STRETCHED, 2 * STRETCHED) if random.random() < _STRETCHED else _SOLIDS
+    number = int(random.integers(low, high))
+    names = ("tabor", "modulus_ratio", "preload")
+    test = {name: between(random, *physics.LIMITS[name]) for name in names}
+    _, times = creep_spectrum(number, test["modulus_ratio"])
+    rate = between(random, 10**-_BEYOND / times[-1], 10**_BEYOND / times[0])
+    return "solid", {**test, "solid": number, "rate": rate}
 
 
-def _with_few_times(random: Random, ratio: float, most: int) -> tuple[int, float]:
-    """Return a random solid of few retardation times, and their weighted mean."""
+def _two_peaks(random: Random) -> Drawn:
+    """Draw a deep pull, about as fast as its bulk relaxes: two in three on standard solids."""
+    tabor, ratio, depth, part = (between(random, *ends) for ends in TWO_PEAKS)
+    test = {"tabor": tabor, "modulus_ratio": ratio, "preload": depth}
+    sort = random.random()
+    if sort < 1 / 6:
+        return "sphere", test | {"exponent": between(random, 0.7, 2.0), "rate": part * depth}
+    few = sort >= 5 / 6
     while True:
         number = int(random.integers(*_SOLIDS))
         weights, times = creep_spectrum(number, ratio)
-        if len(times) <= most and (most == 1 or len(times) > 1):
-            return number, float(np.exp(weights @ np.log(times)))
+        if 1 < len(times) <= 4 if few else len(times) == 1:
+            break
+    time = float(np.exp(weights @ np.log(times)))
+    return "solid", {**test, "solid": number, "rate": part * depth / time}
 
 
-# The number of each design in the seed of its draw, and what draws its cases.
-DESIGNS: dict[str, tuple[int, Callable[[Random], Case]]] = {
-    "power laws": (0, power_law),
-    "other solids": (1, solid),
-    "punches": (2, punch),
-    "two peaks": (3, two_peaks),
-    "light tension": (4, light_tension),
-    "large Tabor numbers": (5, large_tabor),
-    "soft punches": (6, soft_punch),
-    "shallow soft punches": (7, shallow_punch),
-    "faces": (8, on_face),
-    "wide punches": (9, wide_punch),
-} | {name: (100 + i, partial(of_engineers, name)) for i, name in enumerate(FAMILIES)}
+def _on_layer(inputs: Sequence[float]) -> Drawn:
+    """Return a punch whose start is told by its stress."""
+    given = list(inputs)
+    given[punch_physics.PRELOAD] *= float(punch_physics.compliance(np.array([given]))[0])
+    return "punch", {"cohesion": 0.05, **dict(zip(punch_physics.INPUTS, given, strict=True))}
+
+
+def _punch(random: Random) -> Drawn:
+    """Draw a punch on a layer in the range of the surrogate."""
+    ends = zip(punch_physics.LOW, punch_physics.HIGH, strict=True)
+    return _on_layer([between(random, low, high) for low, high in ends])
+
+
+def _hard_punch(ranges: Sequence[Ends], random: Random) -> Drawn:
+    """Draw a punch from ranges, of two from the latter in half of the draws."""
+    ends = ranges[int(random.random() < 0.5)] if len(ranges) == 2 else ranges[0]
+    *inputs, part = (between(random, *each) for each in ends)
+    kind, found = _on_layer([*inputs, part])
+    return kind, found | {"rate": part * found["preload"]}
+
+
+# The number of each design in the seed of its draw, and what draws kind and inputs of its cases.
+DESIGNS: dict[str, tuple[int, Callable[[Random], Drawn]]] = {
+    "power laws": (0, partial(_sphere, {})),
+    "other solids": (1, _solid),
+    "punches": (2, _punch),
+    "two peaks": (3, _two_peaks),
+    "light tension": (4, partial(_sphere, LIGHT_TENSION)),
+    "large Tabor numbers": (5, _large_tabor),
+    "faces": (8, _on_face),
+}
+DESIGNS |= {name: (i, partial(_hard_punch, ends)) for name, (i, ends) in _PUNCHES.items()}
+DESIGNS |= {
+    name: (100 + i, partial(lambda family, random: ("contact", contact(family, random)), name))
+    for i, name in enumerate(FAMILIES)
+}
 
 
 def drawn(seed: int, counts: Mapping[str, int]) -> list[Case]:
@@ -234,7 +209,7 @@ def drawn(seed: int, counts: Mapping[str, int]) -> list[Case]:
     for name, count in counts.items():
         number, draw = DESIGNS[name]
         random = np.random.default_rng([seed, number])
-        found += [((i + 0.5) / count, draw(random)) for i in range(count)]
+        found += [((i + 0.5) / count, Case(name, *draw(random))) for i in range(count)]
     return [case for _, case in sorted(found, key=lambda pair: pair[0])]
 
 
@@ -278,14 +253,10 @@ def labelled(
     cases: list[Case],
     folder: Path,
     accuracy: float = ACCURACY,
-    *,
-    missing: bool = True,
-    needed: Callable[[Case], bool] = lambda _: True,
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
-    """Iterate over cases with their labels; missing ones are simulated, or skipped.
+    """Iterate over cases with their labels; missing ones are simulated.
 
     Labels of `FINER` designs are at least as accurate as stated there. Each accuracy has a file.
-    The label of a case that is not needed is empty.
     """
     folder.mkdir(parents=True, exist_ok=True)
     known: dict[Path, dict[str, Any]] = {}
@@ -295,11 +266,6 @@ def labelled(
         if path not in known:
             known[path] = _stored(path)
         if case.key not in known[path]:
-            if not needed(case):
-                yield case, {}
-                continue
-            if not missing:
-                continue
             known[path][case.key] = found = label(case, wanted)
             with path.open("a", encoding="utf-8") as file:
                 file.write(json.dumps({"key": case.key, "label": found}) + "\n")
@@ -337,39 +303,17 @@ def add_draw(parser: argparse.ArgumentParser) -> None:
     """Add the options of a draw."""
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--labels", type=Path, required=True, help="folder of the labels")
-    add_counts(parser, COUNTS)
-    parser.add_argument("--accuracy", type=float, default=ACCURACY)
-
-
-def add_counts(parser: argparse.ArgumentParser, usual: Mapping[str, int]) -> None:
-    """Add the option of the numbers of cases of each design."""
     parser.add_argument(
         "--counts",
         nargs="+",
         metavar="DESIGN=NUMBER",
-        default=[f"{name}={count}" for name, count in usual.items()],
+        default=[f"{name}={count}" for name, count in COUNTS.items()],
         help=f"cases of {', '.join(DESIGNS)}",
     )
+    parser.add_argument("--accuracy", type=float, default=ACCURACY)
 
 
 def counts_of(words: Sequence[str]) -> dict[str, int]:
     """Return the numbers of cases of each design from an option."""
     parts = (each.rpartition("=") for each in words)
     return {name: int(count) for name, _, count in parts}
-
-
-def main() -> None:
-    """Simulate what is missing."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    add_draw(parser)
-    given = parser.parse_args()
-    cases = drawn(given.seed, counts_of(given.counts))
-    failed = 0
-    for number, (_, found) in enumerate(labelled(cases, given.labels, given.accuracy), 1):
-        failed += "failed" in found
-        if number % 50 == 0:
-            print(f"{number} of {len(cases)}, {failed} without an answer", flush=True)
-
-
-if __name__ == "__main__":
-    main()

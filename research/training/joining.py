@@ -1,7 +1,5 @@
 """Networks of one shape as one object: members of an ensemble, or a sum."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack.arrays import Array

@@ -8,8 +8,6 @@ pull-off, and the exponent that the first search found. The nineteen numbers of 
 least squares of the forces of 974 rows of `solids`; 1,700 rows gave none better.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -106,11 +104,7 @@ def sought(tests: Tests, creep: Array) -> Sought:
 def begin(*, how: Fit = HOW, thinned: int = 1) -> Networks:
     """Return the network that says where a search begins, and which samples count.
 
-    Parameters
-    ----------
-    how : Fit
-    thinned : int
-        Of the made-up tests one in so many is learned from.
+    Of the made-up tests one in so many is learned from.
     """
     tests, creep = made_up(SOLIDS // thinned, POWER_LAWS // thinned)
     found = sought(tests, creep)

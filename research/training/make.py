@@ -38,18 +38,10 @@ COURSES: dict[str, Course] = {
 
 
 def make(contact: str, folder: Path, *, workers: int = 1, quick: bool = False) -> dict[str, Any]:
-    """Train a surrogate, write it into a folder, and return its metadata.
+    """Train a surrogate of ``COURSES``, write it into a folder, and return its metadata.
 
-    Parameters
-    ----------
-    contact : str
-        One of ``COURSES``.
-    folder : Path
-        Where the networks are kept too.
-    workers : int
-        Processes.
-    quick : bool
-        Few rows and small networks, to see that it runs.
+    The networks are kept in the folder too. With `quick` rows are few and networks small, to see
+    that it runs.
     """
     began = perf_counter()
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:

@@ -6,8 +6,6 @@ the first, magnified, halves them in a fraction of the steps; its hidden layers 
 of the first, so that both are one network when they are asked.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, replace

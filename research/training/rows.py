@@ -66,7 +66,7 @@ class Rows:
 
 def read(*names: str) -> Rows:
     """Return the rows of some sets, one after the other."""
-    return joined([_of_set(name, number) for number, name in enumerate(names)])
+    return joined([of_table(datasets.load(name), number) for number, name in enumerate(names)])
 
 
 def joined(parts: list[Rows]) -> Rows:
@@ -81,10 +81,6 @@ def certain(name: str) -> npt.NDArray[np.bool_]:
     table = datasets.load(name)
     force, work = (table.column(f"{of}_error").to_numpy() for of in ("force", "work"))
     return (force <= MOST_ERRORS[0]) & (work <= MOST_ERRORS[1])
-
-
-def _of_set(name: str, number: int) -> Rows:
-    return of_table(datasets.load(name), number)
 
 
 def of_table(

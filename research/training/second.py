@@ -14,8 +14,6 @@ With ``--intervals`` the second networks of the file are kept, and only its inte
 again.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -66,11 +64,11 @@ LEAST = np.array([4e-4, 5e-4, 3e-4, 1e-4])
 Taught = tuple[Any, Array, Array]
 
 
-def learned(contact: str, labels: Path, *, missing: bool) -> Taught:
+def learned(contact: str, labels: Path) -> Taught:
     """Return the tests that second networks learn from."""
     if contact == "punch":
         rows = joined([*punches.parted()[0], punches.faces().chosen(slice(0, None, 2))])
-        made, pairs = store.shipped("punch"), _labelled(fresh_cases.drawn(*SOFT), labels, missing)
+        made, pairs = store.shipped("punch"), _labelled(fresh_cases.drawn(*SOFT), labels)
         soft = np.array([[found["force"], found["work"]] for _, found in pairs])
         given = fresh_cases.given_of(made, [case for case, _ in pairs])
         numbers = np.vstack([np.column_stack([rows.force, rows.work]), soft])
@@ -147,11 +145,10 @@ def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
 def _labelled(
     cases: list[fresh_cases.Case],
     labels: Path,
-    missing: bool,
     accuracy: float = fresh_cases.ACCURACY,
 ) -> list[tuple[fresh_cases.Case, dict[str, Any]]]:
     """Return the cases that have an answer, with their labels."""
-    pairs = fresh_cases.labelled(cases, labels, accuracy, missing=missing)
+    pairs = fresh_cases.labelled(cases, labels, accuracy)
     return [pair for pair in pairs if "failed" not in pair[1]]
 
 
@@ -159,26 +156,13 @@ def fresh_apart(
     made: Surrogate,
     folder: Path,
     *,
-    missing: bool,
     draw: tuple[int, Mapping[str, int]] = (SEED, fresh_cases.COUNTS),
     answered: bool = False,
     accuracy: float = fresh_cases.ACCURACY,
 ) -> list[Apart]:
     """Return how far a surrogate is off on the fresh cases of its kind, a set for each design.
 
-    Parameters
-    ----------
-    made : Surrogate
-    folder : Path
-        Of the labels.
-    missing : bool
-        Whether missing labels are simulated; otherwise these cases are left out.
-    draw : pair of int and mapping of str to int
-        Seed and numbers of the cases.
-    answered : bool
-        Whether only cases that the surrogate answers count.
-    accuracy : float
-        Of the simulations.
+    With `answered` only cases count that the surrogate answers.
     """
     kind = {"sphere": "sphere", "solids": "solid", "punch": "punch"}[made.contact.name]
     cases = [c for c in fresh_cases.drawn(*draw) if c.kind == kind]
@@ -187,7 +171,7 @@ def fresh_apart(
         doubtful = made.doubtful(tests, made.evaluate(tests))[:, 0]
         asked = tests.inside().all(axis=1) & ~doubtful
         cases = [case for case, one in zip(cases, asked, strict=True) if one]
-    known = _labelled(cases, folder, missing, accuracy)
+    known = _labelled(cases, folder, accuracy)
     found = []
     for design in dict.fromkeys(case.design for case, _ in known):
         some, labels = zip(*(pair for pair in known if pair[0].design == design), strict=True)
@@ -210,21 +194,18 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
     parser.add_argument("--labels", type=Path, required=True, help="folder of the fresh labels")
     parser.add_argument("--intervals", action="store_true", help="keep the second networks")
-    parser.add_argument("--known", action="store_true", help="only cases with a stored label")
     chosen = parser.parse_args()
-    path, missing = store.FILES[chosen.contact], not chosen.known
+    path = store.FILES[chosen.contact]
     made = store.load(path)
     if not chosen.intervals:
-        of = learned(chosen.contact, chosen.labels, missing=missing)
+        of = learned(chosen.contact, chosen.labels)
         with Shop(chosen.out / "networks") as shop:
             found = fitted(made, of, HOW[chosen.contact], shop)
         made = made.having(second=found)
-    made = measured(made, fresh_apart(made, chosen.labels, missing=missing))
+    made = measured(made, fresh_apart(made, chosen.labels))
     fresh: dict[str, Any] = {"seed": SEED, "counts": fresh_cases.COUNTS}
     if chosen.contact == "solids":
-        some = fresh_apart(
-            made, chosen.labels, missing=missing, draw=LEVELS, answered=True, accuracy=FINE
-        )
+        some = fresh_apart(made, chosen.labels, draw=LEVELS, answered=True, accuracy=FINE)
         made = with_levels(made, some)
         fresh["levels"] = {"seed": LEVELS[0], "answered": sum(len(one.told) for one in some)}
     sealed = ("form", "sha256", "contact", "power law")

@@ -1,7 +1,5 @@
 """Where networks are fitted: processes, and a folder of those that are done."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import os
@@ -9,7 +7,6 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -36,7 +33,7 @@ class Shop:
     folder: Path
     workers: int = 1
 
-    def __enter__(self) -> Shop:
+    def __enter__(self) -> "Shop":
         self.folder.mkdir(parents=True, exist_ok=True)
         # Buffers of megabytes are made anew in every step; kept by the process, instead of given
         # back to the system and fetched again, they cost a third less time.
@@ -45,12 +42,7 @@ class Shop:
         self._pool = ProcessPoolExecutor(self.workers, mp_context=get_context("spawn"))
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self._pool.shutdown(cancel_futures=True)
 
     def fit(self, task: Task, how: Fit, *, seed: int = 0) -> Future[Networks]:

@@ -6,8 +6,6 @@ one part is kept apart to measure how wide intervals must be, and one to judge; 
 in every run. So it is with the rows of `punch_faces`, from none of which anything else is learned.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

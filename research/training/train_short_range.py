@@ -5,8 +5,6 @@ once, and some cases with other Tabor numbers, starts and rates are marched at o
 are kept in the folder of the shop, so that a run that was stopped goes on. About five minutes.
 """
 
-from __future__ import annotations
-
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -117,15 +115,7 @@ def simulated(folder: Path, count: int, each: int) -> tuple[list[Array], npt.NDA
 def networks(tests: Contact, said: Array, rows: Rows, shop: Shop) -> dict[str, Networks]:
     """Return networks of the force, of energy and zones at the pull-off, of work and curve.
 
-    Parameters
-    ----------
-    tests : Contact
-    said : ndarray, shape (n, 4)
-        Force, amplification, zones and work.
-    rows : Rows
-        The same tests with their curves.
-    shop : Shop
-        Where networks are fitted.
+    Of each test `said` has force, amplification, zones and work, and `rows` the curve.
     """
     target, unit = np.log10(said[:, :1]), np.log10(rows.groups[:, TABOR])
     force, pressed = target[:, 0], rows.start_force > 0
@@ -155,12 +145,7 @@ def networks(tests: Contact, said: Array, rows: Rows, shop: Shop) -> dict[str, N
 def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict[str, Any]]:
     """Return a surrogate with its errors on cases of solids that it has not learned from.
 
-    Parameters
-    ----------
-    made : Surrogate
-    rows : Rows
-    steps : ndarray, shape (n, 2, STEPS)
-        Travel and tension at which curves are compared.
+    Curves are compared at `steps` of travel and tension, shape (n, 2, STEPS).
     """
     tests = made.tests(rows.groups)
     assert isinstance(tests, ShortRangeContact)

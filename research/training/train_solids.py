@@ -6,8 +6,6 @@ force and work. Solids that are kept apart are never learned from, and the famil
 exponentials neither.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -28,7 +26,7 @@ from viscotack.prediction.surrogate.network import Networks
 
 from . import calibration, likeness
 from .calibration import Apart, trusted, worth
-from .fitting import Fit, Task, fit_all
+from .fitting import Fit, Task, fit
 from .joining import together
 from .rows import Rows, of_table
 from .shop import Shop
@@ -83,7 +81,7 @@ class Tests:
     def __len__(self) -> int:
         return len(self.tabor)
 
-    def chosen(self, which: Any) -> Tests:
+    def chosen(self, which: Any) -> "Tests":
         """Return the rows of a mask."""
         some = {f.name: getattr(self, f.name)[which] for f in fields(self) if f.name != "rows"}
         return Tests(rows=self.rows.chosen(which), **some)
@@ -186,7 +184,7 @@ def _soft(off: Array, usual: float) -> Array:
 
 def _members(task: Task, how: Fit) -> Networks:
     task = replace(task, target=task.target[:, None], weight=task.weight[:, None])
-    return together(fit_all([(task, how, seed) for seed in range(MEMBERS)]))
+    return together([fit(task, how, seed=seed) for seed in range(MEMBERS)])
 
 
 def with_range(made: Surrogate, tests: Tests) -> Surrogate:
@@ -242,17 +240,9 @@ def measured(
     further: Sequence[Tests] = (),
     fresh: Sequence[Apart] = (),
 ) -> Surrogate:
-    """Return a surrogate with intervals.
+    """Return a surrogate with intervals, which hold for the rows that measure and for fresh sets.
 
-    Parameters
-    ----------
-    made : Surrogate
-    part : mapping of str to Tests
-        Those that it has learned from, and that measure intervals: :func:`parted`.
-    further : sequence of Tests
-        Tests that it has not learned from, beside its own; they tell how far errors reach.
-    fresh : sequence of Apart
-        Sets for which intervals are to hold, beside those of the rows that measure.
+    Further tests that it has not learned from tell how far errors reach.
     """
     known = [*across(made, part["learn"]), *(judged(made, x) for x in further)]
     known.append(judged(made, power_laws(_THINNED)))

@@ -16,7 +16,7 @@ from viscotack.prediction.surrogate import physics
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.physics import SphereContact
 
-from . import drawing, rows
+from . import rows
 from .fitting import Fit, Task
 from .joining import together
 from .refining import Looks, Scaled, Stage, again, all_done, scaled_task, twice
@@ -33,20 +33,9 @@ _THINNED = 4
 class Recipe:
     """How the networks of a surrogate are fitted.
 
-    Attributes
-    ----------
-    limits, line : Fit
-        Of relaxed start and fast limit at the first look, and of the shapes of curves.
-    start : Stage
-        The second look at the relaxed start.
-    fast : tuple of Stage
-        Further looks at the fast limit, one after the other.
-    force, work : Looks
-        Of the force; of the work and the travel to zero force.
-    thinned : int
-        Every so many rows tell the start at the second look.
-    members : int
-        Networks of each kind but the shapes.
+    `limits` at the first look at relaxed start and fast limit, `start` and `fast` at further ones,
+    `line` of the shapes of curves, `work` of the travel to zero force too. Every so many rows
+    (`thinned`) tell the start at the second look; `members` of each kind but the shapes.
     """
 
     limits: Fit = Fit((24, 24, 24), steps=5000)
@@ -137,7 +126,8 @@ def measuring_rows(test: rows.Rows) -> tuple[rows.Rows, ...]:
     """
     fresh = rows.read("fresh")
     measuring = rows.certain("fresh")
-    faces = np.array(drawing.designs_of("fresh", fresh.groups)) == "faces"
+    low, high = np.array(list(physics.LIMITS.values())).T
+    faces = np.any((fresh.groups == low) | (fresh.groups == high), axis=1)
     kept = test.chosen(test.origin != LEARNED.index("thesis"))
     return kept, fresh.chosen(measuring & ~faces), fresh.chosen(measuring & faces)
 

@@ -1,5 +1,1 @@
-"""Every figure and table of the thesis with numbers in it, a small module each.
-
-A module opens with what the figure shows, and with paragraphs that begin with "Claims:", "Needs:"
-and "Costs:". ``numbers(bench)`` returns the plotted data, ``draw(numbers, figure)`` draws it.
-"""
+"""Functions that make and draw the figures and tables of figures.toml."""

@@ -1,7 +1,5 @@
 """The problems of the thesis in the words of the package, and what is measured of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple

@@ -5,8 +5,6 @@ this package: none is repeated, none has a placeholder for its work. What models
 authors' published rows is in the study `published-rows`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
@@ -15,33 +13,33 @@ import numpy as np
 
 from viscotack import datasets
 
-from ..learning.features import Descriptor, Target, crack_amplification, features, target
-from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, check_installed, trained
-from ..learning.splits import random_split
+from ..learning.features import Target, crack_amplification, features, target
+from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, trained
 from ..learning.thesis import TABLES
-from ..learning.validation import Score, Trial, score
+from ..learning.validation import Score, random_split, score
 from ..table import Detachments, read_detachments
 
 # The authors'.
 SEED = 42
+# What is learned, whether with the descriptor, and by what.
+Trial = tuple[Target, bool, Learner]
 # Models that the thesis means by ML and PA-ML, of the force and of the work.
-FORCE_ML = (Target.FORCE, Descriptor.NONE, BOOSTING)
-FORCE_PAML = (Target.FORCE, Descriptor.PUBLISHED, FOREST)
-WORK_ML = (Target.WORK, Descriptor.NONE, FOREST)
-WORK_PAML = (Target.WORK, Descriptor.PUBLISHED, FOREST)
+FORCE_ML = (Target.FORCE, False, BOOSTING)
+FORCE_PAML = (Target.FORCE, True, FOREST)
+WORK_ML = (Target.WORK, False, FOREST)
+WORK_PAML = (Target.WORK, True, FOREST)
 
 
 @lru_cache(1)
 def rows() -> Detachments:
     """Return the shipped set."""
-    check_installed()
     return read_detachments(datasets.path("thesis"))
 
 
 @lru_cache(8)
-def model(which: Target, descriptor: Descriptor, learner: Learner) -> Any:
+def model(which: Target, descriptor: bool, learner: Learner) -> Any:
     """Return a model that has learned all rows."""
-    X, y = features(rows(), descriptor), target(rows(), which)
+    X, y = features(rows(), descriptor=descriptor), target(rows(), which)
     return trained(learner, X, y, seed=SEED)
 
 
@@ -58,55 +56,49 @@ def asked(**columns: Any) -> Detachments:
     )
 
 
-def predicted(trial: tuple[Target, Descriptor, Learner], **columns: Any) -> Any:
+def predicted(trial: Trial, **columns: Any) -> Any:
     """Return the force or the work that a model gives to inputs."""
-    X = features(asked(**columns), trial[1])
+    X = features(asked(**columns), descriptor=trial[1])
     return np.asarray(10 ** model(*trial).predict(X), dtype=float)
 
 
 def analytic(**columns: Any) -> Any:
     """Return the descriptor as published, which the thesis calls XPB."""
-    return crack_amplification(asked(**columns), Descriptor.PUBLISHED)
+    return crack_amplification(asked(**columns))
 
 
 def of_table(number: str, each: Callable[..., Any]) -> dict[str, Any]:
     """Return the entries of a table of the thesis, from five random folds, beside the printed."""
-    printed = next(table for table in TABLES if table.number == number)
-    learners = [name for name in printed.entries]
-    scores = list(each(_scored, [(number, name) for name in learners]))
+    printed = TABLES[number]
+    trials = [(printed.target, printed.descriptor, LEARNERS[name]) for name in printed.entries]
+    scores = list(each(_scored, trials))
     return {
-        "model": learners,
+        "model": list(printed.entries),
         "mse": [1e3 * float(s.mse.mean()) for s in scores],
         "mse_spread": [1e3 * float(s.mse.std()) for s in scores],
         "r2": [float(s.r2.mean()) for s in scores],
         "r2_spread": [float(s.r2.std()) for s in scores],
         "size": [int(round(float(s.sizes.mean()))) for s in scores],
-        "thesis_mse": [printed.entries[name].mse for name in learners],
-        "thesis_mse_spread": [printed.entries[name].mse_spread for name in learners],
-        "thesis_r2": [printed.entries[name].r2 for name in learners],
-        "thesis_r2_spread": [printed.entries[name].r2_spread for name in learners],
+        "thesis_mse": [entry.mse for entry in printed.entries.values()],
+        "thesis_mse_spread": [entry.mse_spread for entry in printed.entries.values()],
+        "thesis_r2": [entry.r2 for entry in printed.entries.values()],
+        "thesis_r2_spread": [entry.r2_spread for entry in printed.entries.values()],
     }
 
 
-def _scored(entry: tuple[str, str]) -> Score:
-    return scored(rows(), *entry)
+def _scored(trial: Trial) -> Score:
+    which, descriptor, learner = trial
+    X, y = features(rows(), descriptor=descriptor), target(rows(), which)
+    return score(X, y, learner, random_split(len(y), SEED), seed=SEED)
 
 
-def scored(of: Detachments, number: str, name: str) -> Score:
-    """Return the score of a model of a table of the thesis on random folds of rows."""
-    table = next(table for table in TABLES if table.number == number)
-    learner = next(learner for learner in LEARNERS if learner.name == name)
-    trial = Trial(table.target, table.descriptor, learner)
-    return score(of, trial, random_split(len(of), SEED), seed=SEED)
-
-
-def held_out(trial: tuple[Target, Descriptor, Learner], points: int) -> dict[str, Any]:
+def held_out(trial: Trial, points: int) -> dict[str, Any]:
     """Return true and predicted log10 of some rows that their model had not seen."""
-    found = score(rows(), Trial(*trial), random_split(len(rows()), SEED), seed=SEED)
+    found = _scored(trial)
     some = np.random.default_rng(SEED).permutation(len(found.true))[:points]
     return {
         "true": found.true[some],
         "predicted": found.predicted[some],
         "r2": found.pooled_r2,
-        "mse": 1e3 * found.pooled_mse,
+        "mse": 1e3 * float(np.mean((found.true - found.predicted) ** 2)),
     }

@@ -1,7 +1,5 @@
 """One style for every picture: theory is a line, simulation an open marker, a model a dot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -10,20 +10,10 @@ from enum import StrEnum
 
 import numpy as np
 
-from viscotack import InputError, RetardationPowerLaw
+from viscotack import RetardationPowerLaw
 from viscotack.theory import persson_brener, rate
 
 from ..table import Array, Detachments
-
-INPUTS = ("log10 preload", "tabor", "log10 rate", "log10 modulus ratio", "exponent")
-
-
-class Descriptor(StrEnum):
-    """Which analytic column stands beside the five inputs."""
-
-    NONE = "none"
-    PUBLISHED = "as published"
-    OWN_TABOR = "own Tabor number"
 
 
 class Target(StrEnum):
@@ -34,24 +24,17 @@ class Target(StrEnum):
 
 
 def inputs(rows: Detachments) -> Array:
-    """Return the five inputs, shape (n, 5), in the order of INPUTS."""
-    return np.stack(
-        [
-            np.log10(rows.preload),
-            rows.tabor,
-            np.log10(rows.rate),
-            np.log10(rows.modulus_ratio),
-            rows.exponent,
-        ],
-        axis=1,
-    )
+    """Return the five inputs, shape (n, 5)."""
+    logs = (np.log10(x) for x in (rows.preload, rows.rate, rows.modulus_ratio))
+    preload, speed, ratio = logs
+    return np.stack([preload, rows.tabor, speed, ratio, rows.exponent], axis=1)
 
 
-def crack_amplification(rows: Detachments, descriptor: Descriptor) -> Array:
+def crack_amplification(rows: Detachments) -> Array:
     r"""Return effective over intrinsic surface energy at the speed that the rate is given.
 
     :math:`\hat v = 2.887 \, (\hat r_u / (\mu \pi^{2/3}))^{1.171}` with :math:`\mu` = 3.24 in every
-    row, as the authors computed it, or with each row's own Tabor number.
+    row, as the authors computed it.
 
     Examples
     --------
@@ -60,17 +43,11 @@ def crack_amplification(rows: Detachments, descriptor: Descriptor) -> Array:
     ...     tabor=one, modulus_ratio=0.1 * one, exponent=0.6 * one, preload=10 * one,
     ...     rate=100 * one, pull_off_force=one, work_to_pull_off=one, work_known=one > 0,
     ... )
-    >>> both = Descriptor.PUBLISHED, Descriptor.OWN_TABOR
-    >>> [f"{crack_amplification(rows, d)[0]:.3f}" for d in both]
-    ['4.547', '6.013']
+    >>> print(f"{crack_amplification(rows)[0]:.3f}")
+    4.547
     """
-    if descriptor is Descriptor.NONE:
-        raise InputError("no descriptor was asked for")
-    r = rows.rate
-    if descriptor is Descriptor.OWN_TABOR:
-        r = r * rate.FITTED_TABOR / rows.tabor
     # The law is used as the authors use it, far from the only Tabor number that it was fitted to.
-    v = np.asarray(rate.crack_speed(rate.rate_as_published(r), tabor=rate.FITTED_TABOR))
+    v = np.asarray(rate.crack_speed(rate.rate_as_published(rows.rate), tabor=rate.FITTED_TABOR))
     found = np.empty(len(rows))
     solids = np.stack([rows.modulus_ratio, rows.exponent], axis=1)
     for k, n in np.unique(solids, axis=0):
@@ -82,11 +59,11 @@ def crack_amplification(rows: Detachments, descriptor: Descriptor) -> Array:
     return found
 
 
-def features(rows: Detachments, descriptor: Descriptor) -> Array:
-    """Return inputs, and the descriptor as it is (not its logarithm) as a last column."""
-    if descriptor is Descriptor.NONE:
+def features(rows: Detachments, *, descriptor: bool) -> Array:
+    """Return inputs, with the descriptor as it is (not its logarithm) as a last column or not."""
+    if not descriptor:
         return inputs(rows)
-    return np.column_stack([inputs(rows), crack_amplification(rows, descriptor)])
+    return np.column_stack([inputs(rows), crack_amplification(rows)])
 
 
 def target(rows: Detachments, which: Target) -> Array:

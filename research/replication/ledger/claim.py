@@ -1,7 +1,5 @@
 """The claims of the thesis, rows of claims.toml, and how they are judged."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,8 +12,8 @@ from typing import Any
 
 from viscotack import InputError
 
-from ..bench import Numbers
-from ..figures.catalogue import THEORY
+from ..figures.catalogue import figures
+from ..kept import Numbers
 
 # Difference that is said [%].
 _LEAST = 0.002
@@ -44,15 +42,7 @@ class Standing(StrEnum):
 
 @dataclass(frozen=True)
 class Measured:
-    """What was measured.
-
-    Attributes
-    ----------
-    value : float
-        The number on which the verdict rests.
-    words : str
-        What stands in the ledger, with its unit and error; the number alone where left out.
-    """
+    """The number on which a verdict rests, and what stands in the ledger, with unit and error."""
 
     value: float
     words: str = ""
@@ -64,27 +54,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim.
-
-    Attributes
-    ----------
-    name : str
-        By which it is measured again.
-    place : str
-        Where it stands in the thesis.
-    says : str
-        What is claimed.
-    thesis : float or str
-        Its number, or words where it has none.
-    measure : callable
-        Measures it, from theory or from numbers of figures.
-    stands : tuple of float
-        Between these the number measured must lie for the verdict to stand.
-    verdict : Verdict
-        What became of it.
-    evidence : str
-        Why.
-    """
+    """A claim: a row of claims.toml, which says what its fields are."""
 
     name: str
     place: str
@@ -121,7 +91,7 @@ class Claim:
         if self.verdict in (Verdict.FAILS, Verdict.OPEN):
             refuted = self.verdict is Verdict.FAILS
             return found, Standing.REFUTED if refuted else Standing.CONJECTURE
-        alone = needed <= set(THEORY) and self.verdict is not Verdict.THEN
+        alone = all(figures()[name].theory for name in needed) and self.verdict is not Verdict.THEN
         return found, Standing.PROVEN if alone else Standing.CONSISTENT
 
     def row(self, found: Measured, standing: Standing) -> str:
@@ -166,13 +136,7 @@ def chapters() -> dict[str, tuple[Claim, ...]]:
 
 
 def named(name: str) -> Claim:
-    """Return a claim by its name.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
+    """Return a claim by its name."""
     claims = {claim.name: claim for part in chapters().values() for claim in part}
     if name not in claims:
         raise InputError(f"there is no claim {name!r}; there are {', '.join(claims)}")

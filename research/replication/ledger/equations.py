@@ -1,7 +1,5 @@
 """Equations that are misprinted, and slips of the text: each measured by a number that must fit."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -11,10 +9,8 @@ from viscotack import RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, jkr, maugis, persson_brener, punch
 
 from ..figures.cases import ALPHA, ALPHA_LJ, LENS, PDMS, PDMS_WORK, solid
-from ..figures.figure_2_1 import UNIT
-from ..figures.figure_2_2b import UNIT as ONE
-from ..figures.figure_2_2b import strength
-from ..figures.figure_4_10 import SHORT, TIP
+from ..figures.elastic import ONE, UNIT, strength
+from ..figures.lens import SHORT, TIP
 from .claim import Measured, Of
 
 _SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)

@@ -1,7 +1,5 @@
 """Claims of chapter 3: a punch on a layer."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..figures.cases import SIZE as HALF_WIDTH

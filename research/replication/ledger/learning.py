@@ -1,13 +1,11 @@
 """Claims of chapter 5 and appendices VI, VII and X: figures of simulation, and what was learned."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack import datasets
 
 from ..figures.cases import K
-from ..figures.figure_5_5 import distance
+from ..figures.forces import distance
 from ..learning.thesis import LOGGED_TIME
 from ..table import SAMPLE, read_detachments
 from .claim import Measured, Of

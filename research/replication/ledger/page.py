@@ -1,14 +1,12 @@
 """The ledger of claims, and its summary, docs/replication.md, from what is measured."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from textwrap import fill
 
 import numpy as np
 
-from ..bench import Numbers
+from ..kept import Numbers
 from .claim import Claim, Measured, Of, Standing, Verdict, chapters
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "replication.md"

@@ -1,13 +1,11 @@
 """Claims of sections 4.6 and 4.7: a glass lens on silicone rubber."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack.theory import persson_brener, rate
 
 from ..figures.cases import LENS, PDMS, PDMS_WORK, K, solid
-from ..figures.figure_4_10 import TIP, V1, measured
+from ..figures.lens import TIP, V1, measured
 from .claim import Measured, Of
 
 

@@ -1,12 +1,10 @@
 """Claims of chapter 4 and of appendices IV, VIII and IX: a sphere on a half-space."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack.theory import persson_brener
 
-from ..figures import figure_4_5, figure_4_6, figure_4_7
+from ..figures import edge_speed, starts
 from ..figures.cases import ALPHA, CHAPTER_4, TABOR, K, elastic_ratio, solid
 from .claim import Measured, Of
 
@@ -73,7 +71,7 @@ def alpha_steady(of: Of) -> Measured:
 
 def agreement(of: Of) -> Measured:
     n = of("4.6")
-    off = np.concatenate([figure_4_6.off(n, name) for name in n["simulated"]])
+    off = np.concatenate([edge_speed.off(n, name) for name in n["simulated"]])
     return Measured(
         float(np.max(np.abs(off))),
         f"{100 * np.min(off):+.1f} to {100 * np.max(off):+.1f} %, five solids, k = 0.1",
@@ -97,7 +95,7 @@ def range_correction(of: Of) -> Measured:
     off = []
     for name, some in n["simulated"].items():
         ratio = elastic_ratio(TABOR * some["energy"] ** (-1 / 3))
-        off.append((1 + figure_4_6.off(n, name, "steady")) / ratio - 1)
+        off.append((1 + edge_speed.off(n, name, "steady")) / ratio - 1)
     every = np.concatenate(off)
     slow = np.concatenate(
         [o[s["energy"] < 5] for o, s in zip(off, n["simulated"].values(), strict=True)]
@@ -162,7 +160,7 @@ def tangents(of: Of) -> Measured:
 
 
 def _within(of: Of, k: float) -> Measured:
-    off = figure_4_7.of_ratio(of("4.7"), k)
+    off = edge_speed.of_ratio(of("4.7"), k)
     share = 100 * float(np.mean(np.abs(off) <= 0.15))
     return Measured(
         share,
@@ -180,12 +178,12 @@ def within_001(of: Of) -> Measured:
 
 
 def threshold(of: Of) -> Measured:
-    factor, slope, _ = figure_4_5.power_law(of("4.5"))
+    factor, slope, _ = starts.power_law(of("4.5"))
     return Measured(slope, f"{factor:.2f} a^{slope:.2f} by the rule of slope 0.1")
 
 
 def collapse(of: Of) -> Measured:
-    _, _, scatter = figure_4_5.power_law(of("4.5"))
+    _, _, scatter = starts.power_law(of("4.5"))
     return Measured(scatter, f"they do, with a scatter of {100 * scatter:.0f} % of the force")
 
 

@@ -1,7 +1,5 @@
 """Rows of a table of detachments beside the simulation of the same cases."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Any
@@ -28,25 +26,12 @@ Inputs = tuple[float, ...]
 def compare(table: Detachments, folder: Path, *, workers: int) -> list[Row]:
     """Return the rows of a table with what the simulation says of them.
 
-    Where the two are apart by more than ``APART``, a converged run decides.
-
-    Parameters
-    ----------
-    table : Detachments
-        What is put to the test.
-    folder : Path
-        Where runs are kept; they go on where they were stopped.
-    workers : int
-        Processes.
-
-    Returns
-    -------
-    list of dict
-        A row each: the five inputs; ``force`` and ``work`` of the table; ``ours``, numbers of the
-        simulation by name; ``force_difference`` and ``work_difference``, the table's over ours,
-        less one (nan where the table has no work); ``in_tension``, whether it starts so; where
-        they are apart ``table_error`` and ``our_error`` of the force, by the converged run, and
-        ``best``, its numbers.
+    Where the two are apart by more than ``APART``, a converged run decides. Runs go on in their
+    folder where they were stopped. A row has the five inputs; ``force`` and ``work`` of the table;
+    ``ours``, numbers of the simulation by name; ``force_difference`` and ``work_difference``, the
+    table's over ours, less one (nan where the table has no work); ``in_tension``, whether it starts
+    so; where they are apart ``table_error`` and ``our_error`` of the force, by the converged run,
+    and ``best``, its numbers.
     """
     ours = simulated(table, folder / "default", CaseSettings.accuracy, workers)
     rows = [_differences(table, i, ours) for i in range(len(table))]

@@ -1,7 +1,5 @@
 """The pictures of the published table beside the simulation."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

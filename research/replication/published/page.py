@@ -1,7 +1,5 @@
 """The page of the published table and its pictures, from rows that `compare` returns."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from pathlib import Path

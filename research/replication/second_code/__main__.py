@@ -9,28 +9,19 @@ from .compare import agreement
 KEPT = Path(__file__).with_name("agreement.json")
 
 
-def rounded(value):
-    """Return a value with eight significant digits."""
-    return float(f"{value:.8g}") if isinstance(value, float) else value
-
-
 def main():
-    """Print the rows, and keep them if asked for."""
+    """Print the rows, and keep them if asked for, with eight significant digits."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--keep", action="store_true", help="write agreement.json")
-    asked = parser.parse_args()
-    found = {
-        name: [{key: rounded(x) for key, x in row.items()} for row in rows]
-        for name, rows in agreement().items()
-    }
+    keep, found = parser.parse_args().keep, agreement()
     for name, rows in found.items():
         print(name)
         for row in rows:
+            row |= {key: float(f"{x:.8g}") for key, x in row.items() if isinstance(x, float)}
             print("  " + "  ".join(f"{key} {x}" for key, x in row.items()))
-    if asked.keep:
+    if keep:
         KEPT.write_text(json.dumps(found, indent=1) + "\n")
 
 
 if __name__ == "__main__":
     main()
-    raise SystemExit(0)

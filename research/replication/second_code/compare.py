@@ -1,7 +1,5 @@
 """Agreement of the second code with the package: plane cracks, zones, and pull-offs of spheres."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

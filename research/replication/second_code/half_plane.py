@@ -16,8 +16,6 @@ stresses in dg/h0. A mesh from 1e-3 to 1e6 needs some hundred elements, because 
 geometric; so the same equations hold for a closing crack, whose memory comes from the open side.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

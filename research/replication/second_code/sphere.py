@@ -14,8 +14,6 @@ of a crack that came at this speed, and D is the hereditary depth. Lengths along
 beta, heights in beta^2/R, forces in R dg, speeds as in :mod:`.half_plane`.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,17 +1,4 @@
-"""Pull-off force by rate beyond the rows that were learned from: ML, PA-ML, theory, simulation.
-
-Claims: where there are no rows (n = 0.2, start at 73 h0, mu = 3.24) the model with the descriptor
-follows the analytic law, the one without leaves it.
-
-Seen: For n = 0.2, where there are hardly rows, the model on the left steps and strays; with the
-descriptor it goes along the dashed law, which is as near to the simulations as it.
-
-Needs: the shipped set; it has rows of n = 0.2 at that Tabor number no more than the thesis's.
-
-Costs: 24 simulations and two models, a quarter of a minute.
-"""
-
-from __future__ import annotations
+"""Pull-off forces by rate and depth: models, theory and simulation."""
 
 from typing import Any
 
@@ -21,9 +8,8 @@ from matplotlib.figure import Figure
 from ..bench import Bench, Numbers
 from .cases import TABOR, K, Work, sphere, table
 from .learned import FORCE_ML, FORCE_PAML, analytic, predicted, rows
-from .style import FORCE, MODEL, RATE, SIMULATED, colour, decades, panels, words
+from .style import COLOURS, DEPTH, FORCE, MODEL, RATE, SIMULATED, colour, decades, panels, words
 
-SIZE = (10.0, 4.2)
 EXPONENTS = (0.2, 0.6, 1.6)
 _DEPTH = 73.0
 # Modulus ratios over which Sec. 5.4.1 compares model and descriptor.
@@ -60,7 +46,7 @@ def distance(numbers: Numbers, name: str, what: str) -> float:
     return float(np.exp(np.sqrt(np.mean(np.log(of[what] / of["simulated"]) ** 2))) - 1)
 
 
-def numbers(bench: Bench) -> Numbers:
+def numbers_5_5(bench: Bench) -> Numbers:
     """Return the curves at a start of 73 h0, and how many rows are like each."""
     r = rows()
     near = (np.abs(np.log(r.tabor / TABOR)) < 0.02) & (r.preload > 50) & (r.modulus_ratio == K)
@@ -81,8 +67,7 @@ def trend() -> list[Numbers]:
     ]
 
 
-def draw(numbers: Numbers, figure: Figure) -> None:
-    """Draw the model without the descriptor on the left, with it on the right."""
+def draw_5_5(numbers: Numbers, figure: Figure) -> None:
     axes = panels(figure, 1, 2, sharey=True)
     for ax, name, title in zip(
         axes, ("ml", "paml"), ("XGBoost", "forest, descriptor"), strict=True
@@ -113,3 +98,83 @@ def legend(ax: Any) -> None:
     ax.plot([], [], **MODEL, color="0.3", label="model")
     ax.plot([], [], **SIMULATED, marker="^", color="0.3", label="simulated")
     ax.legend(loc="lower right")
+
+
+# Tabor number and depth, by figure.
+CASES = {
+    "5.6": ((3.0, 60.0), (3.0, 30.0), (3.0, 15.0), (3.0, 7.5)),
+    "5.7": ((2.56, 75.0), (0.16, 75.0), (0.16, 15.0), (0.16, 7.5)),
+}
+
+
+def numbers_5_6(bench: Bench, name: str) -> Numbers:
+    """Return the curves of each Tabor number and depth."""
+    return {f"{mu:g}, {d:g}": curves(bench.each, tabor=mu, depth=d) for mu, d in CASES[name]}
+
+
+def draw_5_6(numbers: Numbers, figure: Figure) -> None:
+    axes = panels(figure, 2, 2, sharex=True, sharey=True)
+    for ax, (name, of) in zip(axes, numbers.items(), strict=True):
+        drawn(ax, of, "paml")
+        mu, depth = name.split(", ")
+        ax.set_title(rf"$\mu$ = {mu}, start at {depth} $h_0$")
+    legend(axes[0])
+    for ax in axes[2:]:
+        ax.set_xlabel(RATE)
+    for ax in axes[::2]:
+        ax.set_ylabel(FORCE)
+
+
+TABORS = (0.05, 0.2, 0.8, 3.2)
+RATES_BY_DEPTH = (1e8, 1e3, 1e1)
+DEPTHS = np.geomspace(0.3, 150, 13)
+_FINE = np.geomspace(0.3, 150, 41)
+_EXPONENT = 0.6
+
+
+def numbers_5_8(bench: Bench) -> Numbers:
+    """Return forces by rate, Tabor number and depth, simulated and by PA-ML; the descriptor."""
+    works = [
+        Work(sphere(r, float(d), tabor=mu, exponent=_EXPONENT))
+        for r in RATES_BY_DEPTH
+        for mu in TABORS
+        for d in DEPTHS
+    ]
+    found = table(bench.each, works, (len(RATES_BY_DEPTH), len(TABORS), len(DEPTHS)))
+    solid = {"modulus_ratio": K, "exponent": _EXPONENT}
+    learned = [
+        [predicted(FORCE_PAML, rate=r, tabor=mu, preload=_FINE, **solid) for mu in TABORS]
+        for r in RATES_BY_DEPTH
+    ]
+    theory = [float(analytic(rate=r, tabor=3.2, preload=1.0, **solid)[0]) for r in RATES_BY_DEPTH]
+    return {
+        "rate": np.array(RATES_BY_DEPTH),
+        "tabor": np.array(TABORS),
+        "depth": DEPTHS,
+        "simulated": found["force"],
+        "error": found["force_error"],
+        "fine_depth": _FINE,
+        "paml": np.array(learned),
+        "theory": np.array(theory),
+    }
+
+
+def draw_5_8(numbers: Numbers, figure: Figure) -> None:
+    axes = panels(figure, 1, 3)
+    for i, ax in enumerate(axes):
+        for j, mu in enumerate(numbers["tabor"]):
+            style = SIMULATED | {"color": COLOURS[j], "marker": "os^D"[j]}
+            ax.plot(numbers["depth"], numbers["simulated"][i, j], **style, label=rf"$\mu$ = {mu:g}")
+            ax.plot(numbers["fine_depth"], numbers["paml"][i, j], **MODEL, color=COLOURS[j])
+        ax.axhline(numbers["theory"][i], color="0.4", ls="--", lw=1, label="descriptor")
+        if i == 0:
+            for level, words in ((1 / K, "$1/k$"), (4 / (3 * K), "$4/3k$")):
+                ax.axhline(level, color="k", ls="-.", lw=0.8)
+                ax.text(0.3, level + 0.15, words)
+        ax.set_xscale("log")
+        ax.set_ylim(0, None)
+        ax.set_title(rf"rate $10^{{{np.log10(numbers['rate'][i]):.0f}}}$")
+        ax.set_xlabel(DEPTH)
+    axes[0].set_ylabel(FORCE)
+    axes[1].plot([], [], **MODEL, color="0.4", label="PA-ML")
+    axes[1].legend()

@@ -1,18 +1,4 @@
-"""Effective surface energy of four layers by crack speed, beside Greenwood limited by size.
-
-Claims: it rises to 1/k, or to (pi/4) b/a0 where that is less (Eq. 3.31); Greenwood's theory with
-that limit (Eq. 3.35) is in fairly good agreement.
-
-Seen: Energies follow Greenwood's curves up to where the size ends them; the layer of 13 a0, close
-to b0/k, stays a fifth below. On the right the bound is met if the whole contact is counted (dots),
-and passed with the ligament of Eq. 3.30.
-
-Needs: the simulations of Fig. 3.8.
-
-Costs: 48 simulations for the inset, half a minute of processor time.
-"""
-
-from __future__ import annotations
+"""A punch on four layers: stress, energy and work by the speed of the crack."""
 
 from typing import Any
 
@@ -24,11 +10,33 @@ from viscotack.theory import punch as theory
 
 from ..bench import Bench, Numbers
 from .cases import FOUR, K, Work, punch, solid, table
-from .figure_3_3 import PAD
-from .figure_3_8 import SPEED
+from .cases import SIZE as HALF_WIDTH
+from .layers import PAD
 from .style import COLOURS, ENERGY, MARKERS, SIMULATED, decades, panels
 
-SIZE = (9.5, 4.0)
+SPEED = r"crack speed at pull-off $V_c\,\tau/h_0$"
+RATES = np.geomspace(1e-3, 1e4, 22)
+
+
+def numbers_3_8(bench: Bench) -> Numbers:
+    """Return what comes off how, by thickness [a0] and rate [h0/tau], in units of the package."""
+    works = [Work(punch(b, float(r)), until="detached") for b in FOUR for r in RATES]
+    found = table(bench.each, works, (len(FOUR), len(RATES)))
+    return {"thickness": np.array(FOUR), "rate": RATES} | found
+
+
+def draw_3_8(numbers: Numbers, figure: Figure) -> None:
+    (ax,) = panels(figure, 1, 1)
+    for i, b in enumerate(numbers["thickness"]):
+        style = SIMULATED | {"color": COLOURS[i], "marker": MARKERS[i]}
+        ax.plot(numbers["speed"][i], numbers["force"][i], **style, label=f"$b$ = {b:g} $a_0$")
+    decades(ax, y=False)
+    ax.set_ylim(0, 1.05)
+    ax.set_xlabel(SPEED)
+    ax.set_ylabel(r"pull-off stress / $\sigma_0$")
+    ax.legend()
+
+
 SIZES = (32.42, 64.84, 129.69)
 THICKNESSES = (1.5, 2.0, 3.0, 5.0, 8.0, 12.7, 20.0, 32.42)
 _RATE = 100.0
@@ -58,7 +66,7 @@ def by_theory(name: str) -> dict[str, Any]:
     return {"speed": speed, "energy": np.array(energies)}
 
 
-def numbers(bench: Bench) -> Numbers:
+def numbers_3_9(bench: Bench) -> Numbers:
     """Return the energies simulated and by theory, and the largest ones by thickness and size."""
     found = bench.of("3.8")
     b = np.array(THICKNESSES)
@@ -77,8 +85,7 @@ def numbers(bench: Bench) -> Numbers:
     }
 
 
-def draw(numbers: Numbers, figure: Figure) -> None:
-    """Draw the energies by speed, and the largest of them by thickness."""
+def draw_3_9(numbers: Numbers, figure: Figure) -> None:
     left, right = panels(figure, 1, 2)
     curves(left, numbers, numbers["greenwood"], "Greenwood, Eq. 3.35")
     b = numbers["inset_thickness"]
@@ -110,3 +117,41 @@ def curves(ax: Any, numbers: Numbers, theory: Numbers, words: str) -> None:
     ax.set_xlabel(SPEED)
     ax.set_ylabel(ENERGY)
     ax.legend()
+
+
+def numbers_3_10(bench: Bench) -> Numbers:
+    """Return the work [dg0] by thickness and rate, and that of the elastic layer."""
+    found = bench.of("3.8")
+    elastic = theory.crossover.work_of_separation(
+        found["thickness"], half_width=HALF_WIDTH, work_of_adhesion=1.0, base=theory.Frictionless()
+    )
+    parts = ("thickness", "rate", "speed", "separation")
+    return {name: found[name] for name in parts} | {"elastic": np.asarray(elastic)}
+
+
+def draw_3_10(numbers: Numbers, figure: Figure) -> None:
+    left, right = panels(figure, 1, 2, sharey=True)
+    for i, b in enumerate(numbers["thickness"]):
+        style = {"color": COLOURS[i], "marker": MARKERS[i], "mfc": "none", "lw": 0.8}
+        left.plot(
+            numbers["speed"][i], numbers["separation"][i], **style, label=f"$b$ = {b:g} $a_0$"
+        )
+        right.plot(numbers["rate"], numbers["separation"][i], **style)
+    for ax, words in ((left, SPEED), (right, r"retraction rate $r\,\tau/h_0$")):
+        decades(ax, y=False)
+        ax.set_xlabel(words)
+        ax.axhline(1, color="0.5", lw=0.8)
+    left.set_ylim(0, None)
+    left.set_ylabel(r"work of separation / $\Delta\gamma_0$")
+    left.legend()
+
+
+def numbers_A_1(bench: Bench) -> Numbers:
+    """Return the energies simulated and by theory."""
+    found = bench.of("3.9")
+    some = {name: found[name] for name in ("thickness", "speed", "energy")}
+    return some | {"persson_brener": by_theory("persson-brener")}
+
+
+def draw_A_1(numbers: Numbers, figure: Figure) -> None:
+    curves(figure.subplots(), numbers, numbers["persson_brener"], "Persson-Brener, Eq. (4)")

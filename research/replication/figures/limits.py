@@ -1,21 +1,4 @@
-"""The published algorithm, elastic, on its uniform mesh: how far the Tabor number may go.
-
-Claims: 500 equally spaced nodes serve for every case, the lens of Fig. 4.10 at a Tabor number of
-103 among them.
-
-Seen: Up to a Tabor number of 3 equal nodes give the elastic force to 0.1 %. At 10 Newton's method
-gives up where the edge goes from node to node; from 30 on the edge stays at its node, and the
-tension grows for as long as the drive is moved.
-
-Needs: nothing. Appendix V as corrected, for a relaxed (elastic) half-space: overlapping triangles,
-dense Newton, retraction in 150 steps from a contact of 2.3 (R^2 dg0/E0*)^(1/3), that of the lens
-under 1.5 mN, to 1.6 times the depth at which JKR lets go. Elastic forces are known: f(mu) times
-that of JKR.
-
-Costs: two minutes of processor time.
-"""
-
-from __future__ import annotations
+"""Slow and fast ends, claims that are derived twice, and the printed algorithm."""
 
 from typing import Any
 
@@ -23,14 +6,103 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.special import ellipkm1
 
+import viscotack as vt
 from viscotack.theory import jkr
 
 from ..bench import Bench, Numbers
-from .cases import elastic_ratio
-from .style import COLOURS, panels
+from .cases import K, Work, elastic_ratio, lens, punch, solid, sphere, table
+from .layers import PAD
+from .lens import SHORT
+from .style import COLOURS, SIMULATED, panels
 
-SIZE = (6.6, 4.4)
-TABORS = (1.0, 3.24, 10.0, 30.0, 103.0)
+TABORS = (0.05, 0.2, 0.8, 2.05, 3.24, 10.0)
+DEPTHS = (73.0, 150.0, 300.0, 600.0)
+SIZES = (64.0, 256.0, 1024.0)
+SPEEDS = (1e-6, 1e-5, 1e-4, 1e-3)
+_FAST = 1e12
+_FINE = 5e-4
+
+
+def numbers_limits(bench: Bench) -> Numbers:
+    """Return slow and fast forces, elastic stress at b1, and forces of the lens, by two routes."""
+    slow = table(
+        bench.each, [Work(sphere(1.0, 3.0, tabor=mu, k=1), accuracy=_FINE) for mu in TABORS]
+    )
+    crept = table(
+        bench.each,
+        [Work(sphere(1e-4, 5.0, exponent=1.6), accuracy=_FINE)],
+    )
+    fast = table(bench.each, [Work(sphere(_FAST, d, exponent=1.6), accuracy=_FINE) for d in DEPTHS])
+    b1 = 4 / np.pi
+    layers = [
+        Work(punch(b1 * s, 1.0, geometry=vt.FlatPunch(s), material=solid(1.0)), accuracy=_FINE)
+        for s in SIZES
+    ]
+    stress = table(bench.each, layers)["force"] * np.sqrt(np.array(SIZES))
+    # the crack of a finite zone recedes by a part that falls as the root of a0/a
+    limit = np.polynomial.polynomial.polyfit(1 / np.sqrt(np.array(SIZES)), stress, 2)[0]
+    broad = table(bench.each, [Work(sphere(100.0, 73.0, exponent=0.2))])
+    narrow = table(
+        bench.each,
+        [Work(punch(50.0, r, geometry=vt.FlatPunch(5.0))) for r in (1e-2, 1e4)],
+    )
+    return {
+        "tabor": np.array(TABORS),
+        "slow": slow["force"],
+        "slow_error": slow["force_error"],
+        "slow_theory": np.asarray(elastic_ratio(np.array(TABORS))),
+        "slow_viscoelastic": float(crept["force"][0]),
+        "depth": np.array(DEPTHS),
+        "fast": K * fast["force"],
+        "fast_error": fast["force_error"],
+        "fast_theory": float(elastic_ratio(3.24 * K ** (1 / 3))),
+        "size": np.array(SIZES),
+        "at_b1": stress,
+        "at_b1_limit": float(limit),
+        "at_b1_exact": float(PAD.elastic_stress(b1 * PAD.half_width)) * np.sqrt(PAD.half_width),
+        "broad_force": float(broad["force"][0]),
+        "broad_error": float(broad["force_error"][0]),
+        "narrow_punch": narrow["force"],
+        "lens": dict(zip(("simulated", "error", "crack", "band"), _lens(bench.each), strict=True)),
+    }
+
+
+def _lens(each: Any) -> Any:
+    rows = np.array(list(each(both, SPEEDS)))
+    return rows.T
+
+
+def both(speed: float) -> tuple[float, float, float, float]:
+    """Return the force of the lens [mN] with 30.8 nm by simulation and by theory, and errors."""
+    problem = lens(speed, SHORT)
+    result = vt.solve(problem, until="pull-off", accuracy=2e-3, estimate_error=speed > 5e-6)
+    unit = 1e3 * problem.scales().force
+    answer = vt.crack_contact(problem)
+    assert answer.pull_off_force is not None
+    error = (result.error_estimate or {}).get("force", np.nan)
+    return unit * vt.pull_off_force(result), error, unit * answer.pull_off_force, answer.band
+
+
+def draw_limits(numbers: Numbers, figure: Figure) -> None:
+    left, middle, right = panels(figure, 1, 3)
+    style = SIMULATED | {"color": COLOURS[0], "marker": "o", "label": "simulated"}
+    mu = np.geomspace(0.03, 10, 60)
+    left.plot(mu, elastic_ratio(mu), "k-", lw=1, label=r"$f(\mu)$")
+    left.plot(numbers["tabor"], numbers["slow"], **style)
+    left.set(xscale="log", xlabel=r"Tabor number $\mu$", ylabel="slow force over JKR")
+    middle.axhline(numbers["fast_theory"], color="k", lw=1, label=r"$f(\mu k^{1/3})$")
+    middle.axhline(1, color="0.5", ls="--", lw=1, label="thesis, 1")
+    middle.plot(numbers["depth"], numbers["fast"], **style)
+    middle.set(xlabel=r"depth of the start / $h_0$", ylabel="$k$ times the fast force over JKR")
+    v = 1e6 * np.array(SPEEDS)
+    right.plot(v, numbers["lens"]["crack"], "k-", lw=1, label="steady crack at the edge")
+    right.plot(v, numbers["lens"]["simulated"], **style)
+    right.set(xscale="log", xlabel="speed [µm/s]", ylabel="lens, $h_0$ = 30.8 nm: force [mN]")
+    for ax in (left, middle, right):
+        ax.legend()
+
+
+UNIFORM_TABORS = (1.0, 3.24, 10.0, 30.0, 103.0)
 NODES = (500, 1000)
 # In (R^2 dg0/E0*)^(1/3): radius of the start, last node.
 _START, _LAST = 2.3, 4.0
@@ -123,24 +195,23 @@ def _equilibrium(gap: Any, depth: float, r: Any, G: Any, tabor: float) -> Any:
     return None
 
 
-def numbers(bench: Bench) -> Numbers:
+def numbers_printed_algorithm(bench: Bench) -> Numbers:
     """Return forces and the way until contact was lost, by number of nodes and Tabor number."""
-    cases = [(mu, n) for n in NODES for mu in TABORS]
+    cases = [(mu, n) for n in NODES for mu in UNIFORM_TABORS]
     rows = list(bench.each(retracted, cases))
-    shape = (len(NODES), len(TABORS))
-    zone = 0.75 / np.array(TABORS) ** 2
+    shape = (len(NODES), len(UNIFORM_TABORS))
+    zone = 0.75 / np.array(UNIFORM_TABORS) ** 2
     return {
-        "tabor": np.array(TABORS),
+        "tabor": np.array(UNIFORM_TABORS),
         "nodes": list(NODES),
         "force": np.array([row["force"] for row in rows]).reshape(shape),
         "way": np.array([row["way"] for row in rows]).reshape(shape),
-        "expected": np.asarray(elastic_ratio(np.array(TABORS))),
+        "expected": np.asarray(elastic_ratio(np.array(UNIFORM_TABORS))),
         "nodes_in_a_zone": np.outer(np.array(NODES) / _LAST, zone),
     }
 
 
-def draw(numbers: Numbers, figure: Figure) -> None:
-    """Draw the forces by Tabor number beside the elastic ones."""
+def draw_printed_algorithm(numbers: Numbers, figure: Figure) -> None:
     (ax,) = panels(figure, 1, 1)
     ax.plot(numbers["tabor"], numbers["expected"], "k-", lw=1, label=r"elastic, $f(\mu)$")
     for i, nodes in enumerate(numbers["nodes"]):
