@@ -19,11 +19,11 @@ import numpy as np
 from research.cases import spread, spread_out, words
 from research.drawn_tests import drawn
 from research.drawn_tests import words as test_words
+from research.twins import plain_sphere
 from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.simulate import SimulationError
-from viscotack.simulate.twins.plain_sphere import plain_solve
 
 CONVERGED = 1e-4
 # The plain twin is at hand where its equal nodes and steps resolve the case.
@@ -52,7 +52,7 @@ def twin(groups: Groups) -> str:
     """Return the converged force beside that of the plain twin, which shares no code with it."""
     best = solve(groups, until="pull-off", accuracy=CONVERGED, estimate_error=False)
     assert isinstance(groups.start, AtDepth)
-    plain = plain_solve(
+    plain = plain_sphere(
         groups,
         nodes=TWIN_SIZE,
         outer_radius=float(np.sqrt(2 * (60 + groups.start.depth) / groups.tabor)),
