@@ -22,7 +22,6 @@ from .crack import (
     modulus_file,
     persson_brener,
     steady,
-    tabulated,
     tabulated_modulus,
 )
 from .elastic import (
@@ -70,7 +69,6 @@ __all__ = [
     "rate",
     "sphere",
     "steady",
-    "tabulated",
     "tabulated_modulus",
     "transition",
     "unloading",

@@ -8,7 +8,6 @@ from . import (
     modulus_file,
     persson_brener,
     steady,
-    tabulated,
     tabulated_modulus,
 )
 from .law import CrackLaw
@@ -24,6 +23,5 @@ __all__ = [
     "modulus_file",
     "persson_brener",
     "steady",
-    "tabulated",
     "tabulated_modulus",
 ]
