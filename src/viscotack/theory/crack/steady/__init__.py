@@ -1,6 +1,5 @@
 """Steady crack with a full traction law, for any linear solid, opening and closing."""
 
-from . import comparison, cracks, neighbour
 from ._branch import energy_of_odds
 from .comparison import Comparison, compared
 from .cracks import MESH_ERROR, Profile, SteadyCrack
@@ -13,8 +12,5 @@ __all__ = [
     "Profile",
     "SteadyCrack",
     "compared",
-    "comparison",
-    "cracks",
     "energy_of_odds",
-    "neighbour",
 ]
