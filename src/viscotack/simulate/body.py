@@ -14,13 +14,11 @@ from scipy.interpolate import CubicSpline
 from viscotack.model.materials import Modes
 from viscotack.model.traction import grows
 from viscotack.simulate.ageing import Contacted
-from viscotack.simulate.closed_gap import pressed_shut
 from viscotack.simulate.contacts.contact import Contact, Relaxed
-from viscotack.simulate.equilibrium import Balance, descend
-from viscotack.simulate.gap_limits import least_gap, room
+from viscotack.simulate.equilibrium import Balance, descend, pressed_shut
 from viscotack.simulate.growth import Frozen, Opening, Stepped, bend, driven
 from viscotack.simulate.history import Snapshot
-from viscotack.simulate.interface import Faces
+from viscotack.simulate.interface import Faces, least_gap, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.memory import Memory, Step
 from viscotack.simulate.surface import Surface

@@ -23,9 +23,9 @@ import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
 from viscotack.clock import look
+from viscotack.errors import InputError
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.gap_limits import released, room
-from viscotack.simulate.interface import Band, Faces
+from viscotack.simulate.interface import Band, Faces, released, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.surface import Surface
 
@@ -234,3 +234,47 @@ def descend(
         if not kept:
             factor = None
     return Balance(gap, faces, solid.depth(gap), most_iterations, False)
+
+
+class ClosedGap(InputError):
+    """Surfaces are pressed together harder than the traction law can repel.
+
+    The repulsion of a law may be finite at zero gap (exponential, Dugdale, tabulated). A larger
+    pressure closes the gap to 0, where the law ends: the reason is not missing adhesion.
+    """
+
+
+def pressed_shut(surface: Surface, gap: npt.NDArray, relaxed: npt.NDArray) -> float:
+    """Return the pressure [dg/h0] where the gap is closed completely, 0 if it is open.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+    gap : ndarray, shape (N,)
+        Gap at the end of a search without equilibrium [h0].
+    relaxed : ndarray, shape (N,)
+        Displacement of the relaxed solid under this pressure [h0].
+    """
+    gone = gap < GONE
+    if not gone.any():
+        return 0.0
+    return float(np.max((surface.stiffness @ relaxed / surface.area)[gone]))
+
+
+def why(law: Traction, pressure: float) -> str:
+    """Return the explanation for the error message."""
+    most = -float(law.traction(GONE * law.equilibrium_gap))
+    return (
+        f"the contact presses with up to {pressure:.4g} dg0/h0, and the traction law repels with "
+        f"{most:.4g} dg0/h0 at most, at a gap of 0, where it ends; press less, or take a law that "
+        "repels more strongly, such as lennard-jones or one of shorter range"
+    )
+
+
+def check_open(surface: Surface, law: Traction, gap: npt.NDArray, depth: float, of: str) -> None:
+    """Raise `ClosedGap` if the search for a relaxed contact has closed the gap."""
+    if pressure := pressed_shut(surface, gap, gap - surface.rigid_gap + depth):
+        raise ClosedGap(
+            f"no relaxed contact exists at a depth of {depth:g} h0 ({of}): {why(law, pressure)}"
+        )

@@ -14,8 +14,9 @@ from math import hypot
 import numpy as np
 
 from viscotack.clock import TimeUp
-from viscotack.result import Result
+from viscotack.result import Outcome, Result
 from viscotack.result.dead_load import time_held
+from viscotack.result.loops import Loop, loop_of, lost_in
 from viscotack.result.observables import (
     PullOff,
     depth_shift,
@@ -27,8 +28,7 @@ from viscotack.result.observables import (
     work_lost,
     work_to,
 )
-from viscotack.result.parts import move_numbers, moves_of, waits
-from viscotack.simulate.loop_error import hysteresis_errors
+from viscotack.result.parts import Span, move_numbers, moves_of, spans, waits
 from viscotack.simulate.preload import Beginning
 
 # Ratio of the errors of the coarser run to those of the main run.
@@ -70,7 +70,7 @@ def estimated(
     except (ValueError, TimeUp):  # no start or no time left: no estimate
         return result
     errors = _of_end(result, coarse, beginning, travel, accuracy) or {}
-    loops = hysteresis_errors(result, coarse, accuracy, COARSER)
+    loops = hysteresis_errors(result, coarse, accuracy)
     if loops is not None:
         errors["hysteresis"] = float(np.nanmax(loops))
     return replace(result, error_estimate=errors or None, hysteresis_errors=loops)
@@ -166,3 +166,41 @@ def _add_branch(result: Result, estimate: dict[str, float]) -> None:
 def _holds(result: Result) -> bool:
     """Return whether a test ends with a held load, so that its error is that of the time."""
     return waits(moves_of(result)[int(move_numbers(result)[-1])], "force")
+
+
+# Shares in the error: of the difference to the companion over what its errors exceed those of the
+# run by; of the energy that is missing after the cycle; of what moving between meshes took; and of
+# the hysteresis times the accuracy. Each alone is small by chance now and then.
+_DIFFERENCE, _MESHES, _OF_LOSS = 1.5, 0.5, 0.15
+
+
+def hysteresis_errors(result: Result, coarse: Result, accuracy: float) -> tuple[float, ...] | None:
+    """Return the relative error of the hysteresis of each cycle, nan where its loop is open.
+
+    None where no loop closed, or the companion went another way.
+    """
+    cycles, others = spans(result), spans(coarse)
+    loops = [loop_of(result, span) for span in cycles]
+    if coarse.outcome is Outcome.STOPPED or len(cycles) != len(others):
+        return None
+    if all(loop is Loop.OPEN for loop in loops):
+        return None
+    errors = []
+    for span, other, loop in zip(cycles, others, loops, strict=True):
+        lost = lost_in(result, span, loop)
+        differs = abs(lost - lost_in(coarse, other, loop))
+        error = _DIFFERENCE * differs / (COARSER - 1) + _missed(result, span)
+        error += _OF_LOSS * accuracy * abs(lost)
+        errors.append(error / max(abs(lost), np.finfo(float).tiny))
+    return tuple(float(error) for error in errors)
+
+
+def _missed(result: Result, span: Span) -> float:
+    """Return the shares of what the energies of a cycle miss, and of what the meshes took."""
+    energy = result.energy
+    assert energy is not None, "a simulation has its energies"
+    spent = energy.elastic + energy.interface + energy.spring + energy.heat + energy.interface_heat
+    missing = energy.drive - spent - energy.jumps - energy.transfer
+    ends = [span.first, span.last]
+    meshes = abs(float(np.diff(energy.transfer[ends])[0]))
+    return abs(float(np.diff(missing[ends])[0])) + _MESHES * meshes

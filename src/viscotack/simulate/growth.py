@@ -60,8 +60,7 @@ from scipy.interpolate import CubicSpline
 from viscotack.clock import look
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.equilibrium import Balance, elastic_energy, factored, solved
-from viscotack.simulate.gap_limits import room
-from viscotack.simulate.interface import Band
+from viscotack.simulate.interface import Band, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.surface import Surface
 

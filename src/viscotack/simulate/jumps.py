@@ -17,8 +17,7 @@ from viscotack.simulate.body import Trial
 from viscotack.simulate.history import Snapshot
 from viscotack.simulate.memory import Step, step
 from viscotack.simulate.mesh import Mesh
-from viscotack.simulate.remesh import around_edge, lost
-from viscotack.simulate.state import MarchState, Run
+from viscotack.simulate.state import MarchState, Run, around_edge, lost
 from viscotack.simulate.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
 
 # Maximum number of iterations from the end of a branch to the next stable state.

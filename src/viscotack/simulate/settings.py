@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from viscotack.model.geometry import Body, Layer
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, Accuracy
 from viscotack.model.traction import Traction, softening
 from viscotack.simulate.interface import resolved
-from viscotack.simulate.mesh import Grading
+from viscotack.simulate.mesh import EndedGrading, Grading
 
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
@@ -152,6 +152,15 @@ class Settings:
             growth_outside=self.growth_outside,
             outer_radius=outer_radius,
         )
+
+    def grading_to_end(self, zone: float, law: Traction, size: float, body: Body) -> EndedGrading:
+        """Return the grading for a crack from the end of an indenter of this size on a body."""
+        crack = self.grading(zone, law, size)
+        # nodes lie on a lattice that begins at the end, and no scar beyond the middle
+        spacing = min(crack.spacing, size / 8)
+        finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
+        finest |= {"scar_half_width": min(crack.scar_half_width, size)}
+        return EndedGrading(**finest, coarsest=self.widest(body))
 
     def widest(self, body: Body) -> float:
         """Return the largest distance of nodes in a contact with a body, in its unit of length."""

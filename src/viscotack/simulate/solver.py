@@ -23,7 +23,6 @@ from viscotack.model.geometry import (
 from viscotack.model.materials import Material, Modes
 from viscotack.model.problem import Case, Groups
 from viscotack.model.problem.revolution import SIMULATED_TABOR
-from viscotack.model.protocol import AtDepth
 from viscotack.model.traction import effective_range, has_rest
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
@@ -42,7 +41,7 @@ from viscotack.simulate.legs import legs_of, longest_time, reached, spring_trave
 from viscotack.simulate.machine import Leg, spring_energy
 from viscotack.simulate.march import march
 from viscotack.simulate.mesh import Grading
-from viscotack.simulate.preload import Beginning, shallower
+from viscotack.simulate.preload import shallower
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.verdict import judged, out_of_time, status_of
 
@@ -99,8 +98,8 @@ def simulate(
         return _run(problem, marched, coarser, end, False, seen)
 
     try:
-        beginning = None if whole else _beginning(groups, contact, settings, light)
-        marched = groups if beginning is None else _from(groups, beginning.start.depth)
+        beginning = None if whole else shallower(groups, contact, settings, light)
+        marched = groups if beginning is None else beginning.light.groups
         own = part_of(progress, 0.0, share)
         result = _run(problem, marched, settings, until, fields, own, watch)
     except TimeUp as limit:
@@ -283,6 +282,10 @@ def _result(
     edge = np.array([s.edge for s in states])
     heat = np.array([b.heat for b in books])
     residual = float(np.max(np.abs(history.imbalances())))
+    parts: dict[str, Any] = {}
+    if not np.isinf(detail(groups.geometry)):  # the contact may have several edges
+        parts["inner_radius"] = np.array([s.hole for s in states]) / contact.edge_unit
+        parts["rings"] = np.array([s.rings for s in states])
     return Result(
         problem=problem,
         time=time,
@@ -316,18 +319,8 @@ def _result(
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
-        **_parts_of_contact(groups, contact, states),
+        **parts,
     )
-
-
-def _parts_of_contact(groups: Groups, contact: Contact, states: list[Snapshot]) -> dict[str, Any]:
-    """Return inner edge and number of rings for shapes whose contact may have several edges."""
-    if np.isinf(detail(groups.geometry)):
-        return {}
-    return {
-        "inner_radius": np.array([s.hole for s in states]) / contact.edge_unit,
-        "rings": np.array([s.rings for s in states]),
-    }
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
@@ -343,18 +336,3 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
         "gap": np.array([padded(p.gap) for p in history.profiles]),
         "pressure": np.array([padded(p.pressure) for p in history.profiles]),
     }
-
-
-def _beginning(
-    groups: Groups,
-    contact: Contact,
-    settings: Settings,
-    light: Callable[[Groups], Result],
-) -> Beginning | None:
-    """Return a shallower equivalent start, or None if the given start is not too deep."""
-    return shallower(groups, contact, settings, lambda depth: light(_from(groups, depth)))
-
-
-def _from(groups: Groups, depth: float) -> Groups:
-    """Return the same test, started from a relaxed contact at this depth [h0]."""
-    return replace(groups, start=AtDepth(depth))

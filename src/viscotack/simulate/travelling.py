@@ -29,12 +29,11 @@ from viscotack.simulate.frame import (
     farthest,
     widths,
 )
-from viscotack.simulate.gap_limits import least_gap, room
+from viscotack.simulate.interface import least_gap, room
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.memory import Memory, step
 from viscotack.simulate.mesh import Mesh
-from viscotack.simulate.remesh import around_edge, lost, opening
-from viscotack.simulate.state import MarchState, Run
+from viscotack.simulate.state import MarchState, Run, around_edge, lost, opening
 from viscotack.simulate.steps import Attempt, changed, entered
 from viscotack.simulate.surface import Surface
 

@@ -27,9 +27,10 @@ from viscotack.simulate.bounds import check_bounds
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.history import History
 from viscotack.simulate.machine import Leg
+from viscotack.simulate.march import Part, Units
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import contact_of, discretised, modes_of_run, relaxed_start
-from viscotack.simulate.two_contacts import Part, SeriesHistory, Units, march_in_series
+from viscotack.simulate.two_contacts import SeriesHistory, march_in_series
 from viscotack.threads import one_blas_thread
 
 _STATUS = {
