@@ -25,10 +25,11 @@ from viscotack.result.observables import (
     pull_off,
     pull_off_force,
     summary,
-    work_lost,
     work_of_separation,
     work_to_pull_off,
 )
+from viscotack.result.opening import lost_beside
+from viscotack.result.parts import spans
 
 # Observable, its exact value for a JKR retraction, and its order in the steps.
 EXACT = [
@@ -192,7 +193,7 @@ def test_work_lost_is_what_the_drive_does_while_a_sloping_error_moves_the_minimu
     a, error = PULL_OFF_RADIUS, 1e-3
     by_radius = DISPLACEMENT * (2 * a - 1 / np.sqrt(2 * a))
     curvature = (8 * a - 0.75 * np.sqrt(8 / a)) / 1.5 / by_radius**2
-    found = work_lost(jkr_result(steps=400), error)
+    found = error * lost_beside(jkr_result(steps=400), spans(jkr_result(steps=400))[-1])
     assert found == pytest.approx(error / curvature, rel=0.02)
     # the minimum of a force with that slope is where it says; there the drive works with force 1
     travel = -jkr_result(steps=400).depth

@@ -15,19 +15,10 @@ import numpy as np
 
 from viscotack.clock import TimeUp
 from viscotack.result import Outcome, Result
-from viscotack.result.dead_load import time_held
+from viscotack.result.cycles import time_held
 from viscotack.result.loops import Loop, loop_of, lost_in
-from viscotack.result.observables import (
-    PullOff,
-    depth_shift,
-    equal_peak,
-    fold_shift,
-    peaks,
-    pull_off,
-    step_shift,
-    work_lost,
-    work_to,
-)
+from viscotack.result.observables import PullOff, equal_peak, peaks, pull_off, work_to
+from viscotack.result.opening import between_steps, lost_beside, reach_of_fold
 from viscotack.result.parts import Span, move_numbers, moves_of, spans, waits
 from viscotack.simulate.preload import Beginning
 
@@ -113,18 +104,22 @@ def _of_pull_off(
 ) -> dict[str, float]:
     """Return the errors at a pull-off, from the matching peak of the coarser run."""
     work, other = work_to(result, found), work_to(coarse, alike)
-    energy = found.force * result.problem.outputs.energy_factor(result.groups)
+    to_unit = result.problem.outputs.energy_factor(result.groups)
+    energy = found.force * to_unit
     off = {"work": abs(work - other), "depth": abs(found.depth - alike.depth)}
     size = {"work": abs(work), "depth": abs(work) / energy}
     slope, more = accuracy / travel, _ELASTIC if result.groups.modulus_ratio == 1 else 1.0
     if result.groups.body.decay_length == 0:
         more *= _SPRINGS
-    shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
+    last = spans(result)[-1]
+    beside = slope * lost_beside(result, last)
+    shift = {"work": beside * to_unit, "depth": beside / found.force}
     share = abs(found.force - alike.force) / found.force
     force = more * from_difference("force", share, accuracy)
     # under a growing load both end by chance near the largest force, and may end at one place;
     # where the force bends within a step, both may have their minimum at the same wrong place
-    place = hypot(fold_shift(result, force), step_shift(result))
+    fold = force**0.5 * reach_of_fold(result, last)
+    place = hypot(fold, between_steps(result, last))
     chance = {"work": place * energy, "depth": place}
     error = {
         name: hypot(
