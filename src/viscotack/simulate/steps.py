@@ -124,7 +124,9 @@ def weighed(run: Run, at: MarchState, s: Step, trial: Trial) -> Attempt:
     heat = before.surface.unit * before.memory.heat(
         s, before.relaxed, after.relaxed, before.nodal, after.nodal
     )
-    work, friction = work_of(before.seen, after.seen), run.body.friction(before, after)
+    now, then = before.seen, after.seen  # force and depth are linear in between
+    work = 0.5 * (now.force + then.force) * (then.depth - now.depth)
+    friction = run.body.friction(before, after)
     return entered(run, at, after, work, heat, _strain(run, at, trial), interface=friction)
 
 
@@ -155,11 +157,6 @@ def entered(
         allowed = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
     strain = max(strain, abs(missing) / (allowed * tolerated))
     return Attempt(after, entry, at.mesh, missing, tolerated, strain)
-
-
-def work_of(before: Snapshot, after: Snapshot) -> float:
-    """Return the work at the indenter in a step in which force and depth changed linearly."""
-    return 0.5 * (before.force + after.force) * (after.depth - before.depth)
 
 
 def cut(strain: float) -> float:

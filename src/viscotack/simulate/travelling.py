@@ -150,7 +150,8 @@ def travelled(run: Run, at: MarchState, goal: Ahead) -> Attempt | None:
     if way is None or found is None or passage is None:
         return None
     after, bend = _after(run, at, nodes, way, found, passage)
-    work, heat = _work(at.leg, after, at.dt), _heat(after, at.dt)
+    work = _work(at.leg, after, at.dt)
+    heat = _integral(after.trail, np.array([p.heat for p in after.trail]), at.dt)
     strain = _strain(run, at, goal, nodes.mesh, way, after, bend)
     moved = nodes.mesh is not at.mesh
     allowed = (_MOVED if run.body.weights.size else np.inf) if moved else None
@@ -322,12 +323,6 @@ def _work(leg: Leg, after: State, dt: float) -> float:
     # the drive is linear in time; subtract the change of spring energy from its work
     k = leg.stiffness
     return (travel + more / k) / dt * force - more * (now.force + last.force) / (2 * k)
-
-
-def _heat(after: State, dt: float) -> npt.NDArray:
-    """Return the heat of each mode over the last step."""
-    passed = after.trail
-    return _integral(passed, np.array([p.heat for p in passed]), dt)
 
 
 def _integral(passed: tuple[Passed, ...], values: npt.NDArray, dt: float) -> npt.NDArray:
