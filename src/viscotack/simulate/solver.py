@@ -73,13 +73,13 @@ def simulate(
     groups: Groups,
     *,
     settings: Settings,
-    until: str,
-    estimate_error: bool,
-    whole: bool,
-    fields: bool,
-    throw: bool,
-    progress: Progress,
-    watch: Watch,
+    until: str = "pull-off",
+    estimate_error: bool = False,
+    whole: bool = False,
+    fields: bool = False,
+    throw: bool = False,
+    progress: Progress = None,
+    watch: Watch = None,
 ) -> Result:
     """Simulate a problem, also given by its dimensionless groups, for any range of adhesion.
 
