@@ -38,7 +38,7 @@ from viscotack.simulate.estimate import COARSER, estimated
 from viscotack.simulate.history import History, Snapshot
 from viscotack.simulate.interface import resolved
 from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
-from viscotack.simulate.machine import Leg, spring_energy
+from viscotack.simulate.machine import Leg
 from viscotack.simulate.march import march
 from viscotack.simulate.mesh import Grading
 from viscotack.simulate.preload import shallower
@@ -275,45 +275,27 @@ def _result(
     modes: Modes,
     fields: bool,
 ) -> Result:
-    states, books = history.snapshots, history.books
-    force = np.array([s.force for s in states])
-    spring = spring_energy(force, groups.stiffness)
-    time = np.array([s.time for s in states])
-    edge = np.array([s.edge for s in states])
-    heat = np.array([b.heat for b in books])
+    time, edge = history.seen("time"), history.seen("edge")
     residual = float(np.max(np.abs(history.imbalances())))
     parts: dict[str, Any] = {}
     if not np.isinf(detail(groups.geometry)):  # the contact may have several edges
-        parts["inner_radius"] = np.array([s.hole for s in states]) / contact.edge_unit
-        parts["rings"] = np.array([s.rings for s in states])
+        parts["inner_radius"] = history.seen("hole") / contact.edge_unit
+        parts["rings"] = history.seen("rings")
     return Result(
         problem=problem,
         time=time,
-        depth=np.array([s.depth for s in states]),
-        force=force,
+        depth=history.seen("depth"),
+        force=history.seen("force"),
         contact_radius=edge / contact.edge_unit,
         edge_speed=receding_speed(time, edge),
         status=status_of(history, residual, contact.law),
         events=tuple(history.events),
-        statistics={
-            "steps": len(states) - 1,
-            "newton_iterations": history.iterations,
-            "rejected_steps": history.rejected,
-            "meshes": history.meshes,
-            "nodes": history.nodes,
-            "modes": len(modes.weights),
-        },
+        statistics=history.statistics
+        | {"meshes": history.meshes, "nodes": history.nodes, "modes": len(modes.weights)},
         energy=Energies(
-            drive=np.array([b.work for b in books]) + (spring - spring[0]),
-            elastic=np.array([s.elastic for s in states]),
-            interface=np.array([s.interface for s in states]),
-            spring=spring,
-            heat=heat.sum(axis=1),
-            jumps=np.array([b.jumps for b in books]),
-            transfer=np.array([b.transfer for b in books]),
-            interface_heat=np.array([b.interface for b in books]),
+            **history.energies(),
             mode_time=np.array(modes.times),
-            mode_heat=heat[-1],
+            mode_heat=history.books[-1].heat,
             mode_weight=np.array(modes.weights),
         ),
         energy_residual=residual,
