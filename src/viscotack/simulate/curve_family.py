@@ -29,8 +29,8 @@ from viscotack.result.observables import pull_off
 from viscotack.simulate import solve
 from viscotack.simulate.crack_contact import crack_contact
 from viscotack.simulate.force_curve import Curve
+from viscotack.simulate.in_series import CRACKS, SIMULATION
 
-CRACKS, SIMULATION = "steady cracks", "simulation"
 # Number of starts of a family, and largest ratio of neighbouring works.
 _STARTS, _RATIO, _MOST_WORKS = 5, 1.15, 7
 # Starts closer than this fraction of the travel are one, and margin of the starts over their

@@ -89,7 +89,7 @@ def simulate(
     began = perf_counter()
     share = _MAIN if estimate_error else 1.0
     contact = contact_of(groups)
-    check_bounds(problem, groups, contact)
+    check_bounds(groups, contact)
 
     def light(marched: Groups, seen: Progress = None, *, whole: bool = False) -> Result:
         # after moves the force may have a minimum before pull-off: end both runs at the same event

@@ -166,7 +166,7 @@ def posed_contact(problem: Problem, settings: Settings) -> PosedContact:
             f"{groups.effective_tabor:.4g}, too large to simulate"
         )
     contact = contact_of(groups)
-    check_bounds(problem, groups, contact)
+    check_bounds(groups, contact)
     start = relaxed_start(groups, contact, settings)
     return PosedContact(groups, contact, start, Units(si.length, si.force, si.time), si.radius)
 
