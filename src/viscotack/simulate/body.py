@@ -146,7 +146,11 @@ class Body:
     def first(self, start: Relaxed) -> State:
         """Return the relaxed state, in which every mode is in equilibrium."""
         gap, surface = start.gap, start.surface
-        bonds = self._bonds_of_rest(gap)
+        bonds: Opening | Contacted | None = None
+        if self.runs:
+            bonds = Opening.none(gap)
+        elif self.growing is not None:
+            bonds = Contacted.relaxed(self.contact.law, self.growing, gap)
         if isinstance(bonds, Contacted):
             # the edge is where loading has left it; inside, old bonds hold the gap tighter
             free, hold = surface.rigid_gap, Hold(np.inf, depth=start.depth)
@@ -157,14 +161,6 @@ class Body:
         memory = Memory(np.tile(e, many), np.tile(-faces.tension, many))
         edge, rates = surface.edge(gap, self.contact.law.edge_gap), _at_rest(gap)
         return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, bonds)
-
-    def _bonds_of_rest(self, gap: npt.NDArray) -> Opening | Contacted | None:
-        """Return the bonds of a relaxed contact."""
-        if self.growing is None:
-            return None
-        if self.runs:
-            return Opening.none(gap)
-        return Contacted.relaxed(self.contact.law, self.growing, gap)
 
     def after(
         self, state: State, s: Step, hold: Hold, most_iterations: int, largest_gain: float

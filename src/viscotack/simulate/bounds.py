@@ -80,11 +80,6 @@ def check_bounds(groups: Groups, contact: Contact) -> None:
                     f"a punch, got {value:g}"
                 )
     _check_depths(groups, contact)
-    _check_age(groups)
-
-
-def _check_age(groups: Groups) -> None:
-    """Reject a relaxed contact, closed for ever, whose interface never stops to age."""
     law: Any = groups.traction
     if ages(law) and not isinstance(groups.start, Apart) and not np.isfinite(law.settled):
         raise InputError(

@@ -11,7 +11,6 @@ If the edge is at rest, no equilibrium is found or a branch ends, the solver use
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import prod
 
 import numpy as np
@@ -93,7 +92,10 @@ def ahead(run: Run, at: MarchState) -> Ahead | None:
     trail, edge = at.state.trail, at.seen.edge
     if run.body.growing is not None:  # speeds and ages of bonds are defined at fixed points
         return None
-    if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
+    if len(trail) < 3 or not edge > 0:
+        return None
+    time = np.array([passed.seen.time for passed in trail])
+    if not min(np.diff(time).min(), at.dt) > _TICK * time[-1]:  # equal instants
         return None
     if at.mesh.inner:  # several edges would need several frames
         return None
@@ -113,13 +115,6 @@ def ahead(run: Run, at: MarchState) -> Ahead | None:
     last, now = trail[-2].seen, trail[-1].seen
     before = now.time - last.time
     return Ahead(dt, travel, (now.edge - last.edge) / before, before, zone)
-
-
-def _told_apart(trail: tuple[Passed, ...], dt: float) -> bool:
-    """Return whether the last instants and the next one are distinct in floating point."""
-    time = [passed.seen.time for passed in trail]
-    shortest = min(later - earlier for earlier, later in pairwise(time))
-    return min(shortest, dt) > _TICK * time[-1]
 
 
 def _expected(trail: tuple[Passed, ...], dt: float) -> float:
