@@ -11,8 +11,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from research.cases import case
+from research.twins import plain_sphere
 from viscotack import Groups, depth_at_pull_off, pull_off_force, solve
-from viscotack.simulate.twins.plain_sphere import plain_solve
 
 # Nodes and steps of the twin: as few as reach 5e-4 or what a thousand nodes can do. The first two
 # cases are as easy as can be for equal nodes: a fast crack is long, and few nodes see it.
@@ -44,7 +44,7 @@ def twin(groups: Groups, nodes: int, steps: int, pull_off: float):
     """Return the force of the plain twin, run a little beyond the pull-off, and its time."""
     depth = groups.start.depth  # type: ignore[union-attr]
     result, seconds = timed(
-        lambda: plain_solve(
+        lambda: plain_sphere(
             groups,
             nodes=nodes,
             outer_radius=float(np.sqrt(2 * (50 + depth) / groups.tabor)),

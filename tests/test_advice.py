@@ -3,12 +3,13 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import viscotack as vt
 from command_line import exit_status
 from viscotack.model.traction import effective_range
-from viscotack.theory import modulus_file, tabulated_modulus
+from viscotack.theory import tabulated_modulus
 
 
 def groups(rate, *, tabor=3.24, modulus_ratio=0.1, exponent=0.8, start=None):
@@ -199,7 +200,9 @@ def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, 
     law = ["theory", name, "--modulus-table", file, "--rubbery-modulus", "1 MPa"]
     assert exit_status([*law, "--speed", "2", "--speed", "20", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    modulus = modulus_file.read_modulus(file, rubbery_modulus=1e6)
+    frequency = tuple(2 * np.pi * np.array([0.1, 1, 10, 100]))
+    loss = (30e3, 200e3, 900e3, 3e6)
+    modulus = tabulated_modulus.TabulatedModulus(1e6, frequency, (1.01e6, 1.1e6, 2e6, 4e6), loss)
     low, high = function([2.0, 20.0], modulus=modulus)
     assert found == {
         "speed": [2, 20],

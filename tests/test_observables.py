@@ -6,7 +6,6 @@ import pytest
 import synthetic
 import viscotack as vt
 from synthetic import (
-    DISPLACEMENT,
     GROUPS,
     PULL_OFF_DEPTH,
     PULL_OFF_RADIUS,
@@ -25,7 +24,6 @@ from viscotack.result.observables import (
     pull_off,
     pull_off_force,
     summary,
-    work_lost,
     work_of_separation,
     work_to_pull_off,
 )
@@ -186,19 +184,6 @@ def test_only_the_retraction_counts_when_there_is_an_approach():
     both = plain(depth, force, status="still in contact")
     assert pull_off_force(both) == pytest.approx(1, rel=1e-6)
     assert work_to_pull_off(both) == pytest.approx(WORK_TO_PULL_OFF, rel=1e-5)
-
-
-def test_work_lost_is_what_the_drive_does_while_a_sloping_error_moves_the_minimum():
-    a, error = PULL_OFF_RADIUS, 1e-3
-    by_radius = DISPLACEMENT * (2 * a - 1 / np.sqrt(2 * a))
-    curvature = (8 * a - 0.75 * np.sqrt(8 / a)) / 1.5 / by_radius**2
-    found = work_lost(jkr_result(steps=400), error)
-    assert found == pytest.approx(error / curvature, rel=0.02)
-    # the minimum of a force with that slope is where it says; there the drive works with force 1
-    travel = -jkr_result(steps=400).depth
-    tilted = jkr_result(steps=400)
-    tilted = jkr_result(steps=400, force=tilted.force - error * (travel + PULL_OFF_DEPTH))
-    assert abs(depth_at_pull_off(tilted) - PULL_OFF_DEPTH) == pytest.approx(found, rel=0.05)
 
 
 @pytest.mark.parametrize("error", [0.4, 0.6])

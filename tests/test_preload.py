@@ -74,7 +74,7 @@ def test_time_that_is_left_to_creep_decides_where_two_depths_agree():
         case(6e3, material=twice),
         contact_of(case()),
         Settings.for_accuracy(DEFAULT_ACCURACY),
-        lambda depth: pulled(case(depth, material=twice), estimate_error=False),
+        lambda posed: pulled(posed, estimate_error=False),
     )
     assert begun is None
 
@@ -82,8 +82,8 @@ def test_time_that_is_left_to_creep_decides_where_two_depths_agree():
 def test_the_depth_grows_by_fours_until_the_end_no_longer_changes():
     marched = []
 
-    def light(depth):
-        marched.append(pulled(case(depth, rate=100.0), estimate_error=False))
+    def light(posed):
+        marched.append(pulled(posed, estimate_error=False))
         return marched[-1]
 
     settings = Settings.for_accuracy(DEFAULT_ACCURACY)

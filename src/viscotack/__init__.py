@@ -104,8 +104,8 @@ if TYPE_CHECKING:
     from viscotack.result import write_csv as write_csv
     from viscotack.result.cycles import Cycle as Cycle
     from viscotack.result.cycles import cycles as cycles
+    from viscotack.result.cycles import time_to_detachment as time_to_detachment
     from viscotack.result.cycles import write_cycles as write_cycles
-    from viscotack.result.dead_load import time_to_detachment as time_to_detachment
     from viscotack.result.edge_energy import EdgeEnergy as EdgeEnergy
     from viscotack.result.edge_energy import edge_energy as edge_energy
     from viscotack.result.loops import Loop as Loop
@@ -171,8 +171,7 @@ _NAMES = {
         "contact_radius_at_pull_off crack_speed_at_pull_off work_to_pull_off work_of_separation "
         "pull_off_stress ligament_at_pull_off effective_surface_energy summary"
     ),
-    "result.cycles": "Cycle cycles write_cycles",
-    "result.dead_load": "time_to_detachment",
+    "result.cycles": "Cycle cycles time_to_detachment write_cycles",
     "result.edge_energy": "EdgeEnergy edge_energy",
     "result.loops": "Loop",
     "prediction": "advise Advice Estimate predict predict_table Prediction prediction_summary",

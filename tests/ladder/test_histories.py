@@ -21,8 +21,7 @@ from viscotack.model.protocol import (
     Retract,
 )
 from viscotack.model.traction import Dugdale, Exponential
-from viscotack.result.cycles import cycles
-from viscotack.result.dead_load import time_to_detachment
+from viscotack.result.cycles import cycles, time_to_detachment
 from viscotack.result.observables import (
     pull_off,
     pull_off_force,

@@ -44,28 +44,7 @@ def test_every_profile_is_as_stiff_as_a_punch_of_its_radius(exponent):
     stiffness = derivative(lambda x: profiles.force(x, **case), RADII) / derivative(
         lambda x: profiles.depth(x, **case), RADII
     )
-    punch = profiles.punch_force(1.0, contact_radius=RADII, contact_modulus=1.3e6)
-    assert stiffness[1:] == pytest.approx(punch[1:], rel=1e-9, abs=0)
-
-
-@shapes
-def test_a_profile_is_the_correction_of_its_adhesionless_contact(exponent):
-    case = shape(exponent) | RUBBER
-    bare = shape(exponent) | dict(contact_modulus=1.3e6, work_of_adhesion=1e-30)
-    E = RUBBER["contact_modulus"]
-    depth_slope = derivative(lambda x: profiles.depth(x, **bare), RADII)
-    found = profiles.with_adhesion(
-        profiles.depth(RADII, **bare),
-        profiles.force(RADII, **bare),
-        stiffness=2 * E * RADII,
-        stiffness_slope=2 * E / depth_slope,
-        area_slope=2 * np.pi * RADII / depth_slope,
-        work_of_adhesion=RUBBER["work_of_adhesion"],
-    )
-    # differences of terms of like size
-    scale = np.abs(profiles.force(RADII, **bare)) + 1e-12
-    assert np.all(np.abs(found[1] - profiles.force(RADII, **case)) < 1e-12 * scale + 1e-16)
-    assert found[0] == pytest.approx(profiles.depth(RADII, **case), rel=1e-10, abs=1e-17)
+    assert stiffness[1:] == pytest.approx(2 * 1.3e6 * RADII[1:], rel=1e-9, abs=0)
 
 
 def test_the_square_profile_is_jkr():
@@ -123,23 +102,6 @@ def test_a_steep_profile_tends_to_the_flat_punch():
     rest = 1 - np.array(ratio)
     assert np.all(np.abs(rest) < 10 * np.log(q) / q)
     assert punch.force == pytest.approx(-np.sqrt(8 * np.pi * E * b**3 * w), rel=1e-13, abs=0)
-
-
-def test_the_punch_carries_its_force_as_pressure():
-    state = dict(depth=-1e-6, contact_radius=1e-3, contact_modulus=1.3e6)
-    x, weights = np.polynomial.legendre.leggauss(40)
-    angle = np.pi / 4 * (x + 1)
-    # r = a sin(angle): the root at the edge drops out
-    r = 1e-3 * np.sin(angle)
-    ring = 2 * np.pi * r * profiles.punch_pressure(r, **state) * 1e-3 * np.cos(angle)
-    total = np.sum(ring * weights) * np.pi / 4
-    force = profiles.punch_force(-1e-6, contact_radius=1e-3, contact_modulus=1.3e6)
-    assert total == pytest.approx(force, rel=1e-12, abs=0)
-    # K_I^2 = 2 E* w when it comes off
-    end = profiles.punch_pull_off(contact_radius=1e-3, **RUBBER)
-    x = 1e-12
-    edge = profiles.punch_pressure(1e-3 - x, **(state | dict(depth=end.depth)))
-    assert (edge * np.sqrt(2 * np.pi * x)) ** 2 == pytest.approx(2 * 1.3e6 * 0.05, rel=1e-6, abs=0)
 
 
 # Transition -----------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""The ladder of the flat punch on a viscoelastic layer: rate, size, motion, design."""
+"""The ladder of the flat punch on a viscoelastic layer: rate, size, motion."""
 
 from dataclasses import replace
 
@@ -19,7 +19,6 @@ from viscotack.theory.punch import (
     Pad,
     crossover,
     curve,
-    design,
     rate,
     unloading,
 )
@@ -205,29 +204,6 @@ def test_pull_off_is_near_the_simulated_one():
 
 
 # Design ---------------------------------------------------------------------------------------
-
-
-def test_stress_at_a_crack_speed_lies_between_the_elastic_layers():
-    b = np.geomspace(1e-5, 1e-1, 30)
-    elastic = crossover.pull_off_stress(b, half_width=5e-3, **LAYER, base=FREE)
-    slow, middle, fast = (
-        design.pull_off_stress(b, PAD, LAW, crack_speed=v) for v in (0.0, 1e-3, 1e30)
-    )
-    np.testing.assert_allclose(slow, np.minimum(elastic, 9e4), rtol=1e-14)
-    np.testing.assert_allclose(fast, np.minimum(elastic / np.sqrt(0.05), 9e4), rtol=1e-12)
-    for stress in (slow, middle, fast):
-        assert np.all(np.diff(stress) <= 1e-12 * stress[1:])
-    assert np.all((middle >= slow * (1 - 1e-14)) & (middle <= fast * (1 + 1e-14)))
-
-
-@theories
-def test_thickness_is_the_inverse_of_the_stress_at_a_crack_speed(theory):
-    law = PAD.crack_law(theory, material=SLS)
-    b = np.array([5e-5, 3e-4, 5e-3])
-    stress = design.pull_off_stress(b, PAD, law, crack_speed=1e-3)
-    assert np.all(stress < 9e4)
-    found = design.thickness_at_crack_speed(stress, PAD, law, crack_speed=1e-3)
-    np.testing.assert_allclose(found, b, rtol=1e-9)
 
 
 def test_map_has_the_regimes_of_the_slow_and_of_the_fast_pad():

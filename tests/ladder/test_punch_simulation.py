@@ -10,6 +10,7 @@ from threadpoolctl import threadpool_limits
 from dimensionless import ELASTIC, SOLID, slope
 from punches import resized
 from reference_data import VALUES
+from research.twins import plain_punch, triangle_matrix
 from viscotack.model.geometry import Bonded, FlatPunch, Frictionless, Layer
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import AtDepth, AtRadius, Dwell, Retract
@@ -25,7 +26,6 @@ from viscotack.result.observables import (
 )
 from viscotack.simulate import Settings, solve
 from viscotack.simulate.contacts.punch import PunchContact
-from viscotack.simulate.twins.plain_punch import plain_solve, triangle_matrix
 from viscotack.theory import punch
 from viscotack.theory.punch import crossover, curve
 
@@ -227,7 +227,7 @@ def test_the_plain_twin_tends_to_the_fast_solver_as_its_triangles_multiply():
     counts, errors = np.array([50, 100, 200]), []
     for count in counts.tolist():
         with threadpool_limits(limits=1, user_api="blas"):
-            plain = plain_solve(groups, triangles=count, steps=300, last_depth=-6.0)
+            plain = plain_punch(groups, triangles=count, steps=300, last_depth=-6.0)
         errors.append(pull_off(plain).force / exact - 1)
     assert slope(counts, errors) == pytest.approx(-1, abs=0.15), errors
     assert errors[1] == pytest.approx(1 / 100, rel=0.5)

@@ -9,7 +9,7 @@ from viscotack.model.geometry import FlatPunch, Layer, PowerLawProfile
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.model.traction import Dugdale
-from viscotack.result.dead_load import time_to_detachment
+from viscotack.result.cycles import time_to_detachment
 from viscotack.result.observables import pull_off_force
 from viscotack.simulate import solve
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from viscotack.model.materials import RetardationPowerLaw, StandardSolid
-from viscotack.theory import greenwood, modulus_file, persson_brener, tabulated_modulus
+from viscotack.theory import greenwood, persson_brener, tabulated_modulus
 from viscotack.theory.crack.tabulated_modulus import TabulatedModulus
 
 RUBBER = RetardationPowerLaw(
@@ -166,49 +166,3 @@ def test_bounds_of_greenwood_contain_the_exact_value_where_the_table_ends_early(
 
 
 # Files ----------------------------------------------------------------------------------------
-
-TEXT = """\
-# a rubber
-frequency_Hz,storage_MPa,loss_kPa
-0.1,1.01,30
-
-1,1.1,200
-10,2,900
-100,4,3000
-"""
-
-
-def written(folder, text):
-    path = folder / "dma.csv"
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-def test_a_file_is_read_in_its_units_whatever_the_order_of_the_columns(tmp_path):
-    expected = TabulatedModulus(**GOOD)
-    angular = TEXT.replace("frequency_Hz", "angular_frequency_rad/s")
-    swapped = "loss_Pa,angular_frequency_rad_per_s,storage_kPa\n30e3,0.1,1010\n"
-    swapped += "2e5,1,1100\n9e5,10,2000\n3e6,100,4000\n"
-    for text in (angular, swapped):
-        found = modulus_file.read_modulus(written(tmp_path, text), rubbery_modulus=1e6)
-        for name in ("frequencies", "storage", "loss"):
-            assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=1e-14, abs=0)
-    turns = modulus_file.read_modulus(written(tmp_path, TEXT), rubbery_modulus=1e6)
-    assert turns.frequencies[0] == pytest.approx(0.2 * np.pi, rel=1e-15, abs=0)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("_Hz", "", "first row must name frequency, storage and loss with their units"),
-        ("loss_kPa", "loss_kg", "column loss_kg: .* a quantity in Pa"),
-        ("1,1.1,200", "1,1.1", "line 5: a row must be 3 numbers .* got '1,1.1'; remove rows"),
-        ("1,1.1,200", "0.01,1.1,200", "line 5: the frequency 0.01 comes after 0.1; sort the table"),
-        ("1,1.1,200\n", "", "line 5: a gap of 2 decades between the frequencies 0.1 and 10"),
-    ],
-)
-def test_a_wrong_file_is_refused_with_its_line(old, new, message, tmp_path):
-    assert old in TEXT
-    with pytest.raises(ValueError, match=message) as caught:
-        modulus_file.read_modulus(written(tmp_path, TEXT.replace(old, new)), rubbery_modulus=1e6)
-    assert "dma.csv" in str(caught.value)

@@ -8,7 +8,7 @@ from viscotack.errors import InputError
 from viscotack.model.problem import Problem
 from viscotack.model.protocol import Dwell, LoadTo, Retraction
 from viscotack.result import Outcome, Result
-from viscotack.result.dead_load import time_to_detachment
+from viscotack.result.cycles import time_to_detachment
 from viscotack.result.observables import pull_off, work_to_pull_off
 from viscotack.simulate import solve
 

@@ -1,7 +1,7 @@
 """Results of simulations: series, events, observables, cycles, and files."""
 
-from .energies import Energies
 from .result import (
+    Energies,
     Event,
     Outcome,
     Result,

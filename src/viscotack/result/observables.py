@@ -14,17 +14,8 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from viscotack.threads import caught_warnings
 
 from . import Outcome, Result
-from .cycles import cycle_rows
-from .dead_load import time_held
-from .opening import (
-    PullOff,
-    between_steps,
-    lost_beside,
-    peaks_in,
-    pull_off_in,
-    reach_of_fold,
-    tension_work,
-)
+from .cycles import cycle_rows, time_held
+from .opening import PullOff, peaks_in, pull_off_in, tension_work
 from .parts import spans
 
 # Relative error of the work to pull-off above which it is rejected.
@@ -357,66 +348,6 @@ def work_to_pull_off(result: Result) -> float:
             "start deeper"
         )
     return work
-
-
-def work_lost(result: Result, force_error: float) -> float:
-    r"""Return the change of the work to pull-off caused by an error of the force, in its unit.
-
-    At the minimum of the force :math:`P` its slope is zero. An error :math:`\epsilon P` that
-    changes over a length :math:`\ell` has a slope, and shifts the minimum by this slope over the
-    curvature of the force. Over this shift the drive works against the whole pull-off force:
-
-    .. math:: \Delta W = P \cdot \frac{\epsilon P / \ell}{P''}
-
-    Parameters
-    ----------
-    result : Result
-        The simulation.
-    force_error : float
-        Relative error of the force over the length over which it changes [1/h_0].
-
-    Returns
-    -------
-    float
-        Zero if the minimum is not a smooth valley: at the first step, or the last one before a
-        jump.
-    """
-    return _given(result, force_error * lost_beside(result, spans(result)[-1]))
-
-
-def depth_shift(result: Result, force_error: float) -> float:
-    """Return the shift of the force minimum [h_0] by that error: its slope over the curvature.
-
-    Zero if the minimum is not a smooth valley, as for :func:`work_lost`.
-    """
-    found = pull_off(result)
-    return force_error * lost_beside(result, spans(result)[-1]) / found.force
-
-
-def step_shift(result: Result) -> float:
-    """Return how far the depth at pull-off is known between the steps [h_0].
-
-    The minima of polynomials through other steps next to it differ by so much.
-    """
-    return between_steps(result, spans(result)[-1])
-
-
-def fold_shift(result: Result, force_error: float) -> float:
-    """Return the shift of a pull-off under growing load [h_0] by an error of the force.
-
-    Parameters
-    ----------
-    result : Result
-        The simulation.
-    force_error : float
-        Relative error of the pull-off force.
-
-    Returns
-    -------
-    float
-        Zero unless the machine sets the load; otherwise see :func:`depth_shift`.
-    """
-    return force_error**0.5 * reach_of_fold(result, spans(result)[-1])
 
 
 def work_of_separation(result: Result) -> float:

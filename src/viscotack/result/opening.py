@@ -313,10 +313,12 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
             break
         begin = x[0]
         positive = np.flatnonzero(before & (force >= 0))
-        curve = _curve_through(x, force)
+        slope = np.gradient(force, x, edge_order=2 if len(x) > 2 else 1)
+        curve = scipy.interpolate.CubicHermiteSpline(x, force, slope)
         if positive.size and positive[-1] + 1 < len(x):
             i = int(positive[-1])
-            begin, tension = _root(curve, x[i], x[i + 1]), False
+            begin = float(scipy.optimize.brentq(curve, x[i], x[i + 1]))  # type: ignore[arg-type]
+            tension = False
         end = min(x[-1], until)
         if begin < end:
             work -= float(curve.integrate(begin, end))
@@ -488,13 +490,3 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
     nearest = float(roots[np.argmin(np.abs(roots))])
     drive = (x[i] - x[i - 1]) / (time[i] - time[i - 1])
     return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
-
-
-def _curve_through(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
-    """Return the cubic interpolation through the points, with second-order slopes."""
-    slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1)
-    return scipy.interpolate.CubicHermiteSpline(x, y, slope)
-
-
-def _root(curve: "scipy.interpolate.CubicHermiteSpline", low: float, high: float) -> float:
-    return float(scipy.optimize.brentq(curve, low, high))  # type: ignore[arg-type]

@@ -34,7 +34,6 @@ from viscotack.files.whole import Target, write_whole
 from viscotack.model.problem import Case, Groups, Problem, PunchScales, Scales
 from viscotack.model.problem.record import from_dict, to_dict
 from viscotack.model.problem.tables import UnknownNoun
-from viscotack.result.energies import Energies
 from viscotack.units import finite
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1
@@ -53,6 +52,11 @@ _UNREADABLE = (
 _SERIES = ("time", "depth", "force", "contact_radius", "edge_speed")
 # Series that not every result has, and the type of their numbers.
 _OPTIONAL = {"move": int, "inner_radius": float, "rings": int}
+# Other fields that a file has as they are.
+_PLAIN = (
+    *("status", "statistics", "accuracy", "method", "error_estimate", "hysteresis_errors"),
+    *("energy_residual", "versions"),
+)
 
 
 class Outcome(StrEnum):
@@ -127,6 +131,52 @@ class ShallowStart:
     def __post_init__(self) -> None:
         for name in ("asked", "depth", "force", "work", "shift"):
             object.__setattr__(self, name, finite(f"{name} of a start", getattr(self, name), "1"))
+
+
+@dataclass(frozen=True, eq=False)
+class Energies:
+    """Energies over a run, in units of 1.5 pi R Delta-gamma_0 h_0 (for a punch sigma_0 h_0).
+
+    Stored by :func:`viscotack.solve` in the `energy` of a result.
+
+    Drive work = change of spring, elastic and interface energy + heat + interface heat + jumps +
+    transfer.
+
+    Attributes
+    ----------
+    drive : ndarray, shape (n,)
+        Cumulative work of the drive.
+    elastic, interface, spring : ndarray, shape (n,)
+        Energy stored in the solid, across the gap (negative in contact, 0 far apart), and in the
+        machine.
+    heat : ndarray, shape (n,)
+        Cumulative dissipation in the solid, summed over its modes.
+    jumps, transfer : ndarray, shape (n,)
+        Cumulative loss in jumps, and in transfers between meshes.
+    mode_time, mode_heat : ndarray, shape (m,)
+        Retardation time of each mode [time unit], and its total dissipation.
+    interface_heat : ndarray, shape (n,)
+        Cumulative dissipation in an interface whose tension grows with the opening speed.
+    mode_weight : ndarray, shape (m,)
+        Compliance of each mode over that of the relaxed solid. The instantaneous response has the
+        remainder to 1.
+    """
+
+    drive: npt.NDArray[np.float64]
+    elastic: npt.NDArray[np.float64]
+    interface: npt.NDArray[np.float64]
+    spring: npt.NDArray[np.float64]
+    heat: npt.NDArray[np.float64]
+    jumps: npt.NDArray[np.float64]
+    transfer: npt.NDArray[np.float64]
+    mode_time: npt.NDArray[np.float64]
+    mode_heat: npt.NDArray[np.float64]
+    interface_heat: npt.NDArray[np.float64]
+    mode_weight: npt.NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        for name, values in vars(self).items():
+            object.__setattr__(self, name, _frozen(values))
 
 
 @dataclass(frozen=True)
@@ -259,6 +309,8 @@ class Result:
             if (values := getattr(self, name)) is not None:
                 object.__setattr__(self, name, _frozen(values, kind))
         object.__setattr__(self, "events", tuple(self.events))
+        if self.hysteresis_errors is not None:
+            object.__setattr__(self, "hysteresis_errors", tuple(self.hysteresis_errors))
         self._check()
 
     def _check(self) -> None:
@@ -505,33 +557,20 @@ def save(result: Result, path: Target) -> None:
     >>> bool((again.force == result.force).all())
     True
     """
-    header = {
+    header = {name: getattr(result, name) for name in _PLAIN} | {
         "format": _FORMAT,
         "format_version": _FORMAT_VERSION,
-        "versions": dict(result.versions),
         "problem": to_dict(result.problem),
-        "status": result.status,
         "events": [asdict(event) for event in result.events],
-        "statistics": dict(result.statistics),
-        "accuracy": result.accuracy,
-        "method": result.method,
-        "error_estimate": result.error_estimate and dict(result.error_estimate),
-        "hysteresis_errors": result.hysteresis_errors,
-        "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),
         "sensitivities": result.sensitivities and asdict(result.sensitivities),
-        "energy": result.energy is not None,
-        "fields": result.fields is not None,
     }
-    arrays = {name: getattr(result, name) for name in _SERIES}
-    more = {name: getattr(result, name) for name in _OPTIONAL}
-    arrays |= {name: series for name, series in more.items() if series is not None}
-    if result.energy is not None:
-        arrays |= {f"energy/{k}": v for k, v in vars(result.energy).items()}
+    arrays = {name: getattr(result, name) for name in (*_SERIES, *_OPTIONAL)}
+    arrays |= {f"energy/{k}": v for k, v in vars(result.energy).items()} if result.energy else {}
     arrays |= {f"fields/{k}": v for k, v in (result.fields or {}).items()}
-    text = np.array(json.dumps(header))
+    arrays = {name: array for name, array in arrays.items() if array is not None}
     content = io.BytesIO()
-    np.savez_compressed(content, header=text, **arrays)
+    np.savez_compressed(content, header=np.array(json.dumps(header, default=dict)), **arrays)
     write_whole(path, content.getvalue())
 
 
@@ -608,28 +647,17 @@ def _from_parts(
     def group(name: str) -> dict[str, npt.NDArray] | None:
         prefix = f"{name}/"
         found = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
-        return found if header[name] else None
+        return found or None
 
-    slopes = header.get("sensitivities")
-    began = header["shallow_start"]
-    errors = header["hysteresis_errors"]
+    began, slopes, energy = header["shallow_start"], header["sensitivities"], group("energy")
     return Result(
         problem=from_dict(header["problem"], also),
         **{name: arrays[name] for name in _SERIES},
-        status=header["status"],
+        **{name: arrays.get(name) for name in _OPTIONAL},
+        **{name: header[name] for name in _PLAIN},
         events=tuple(Event(**event) for event in header["events"]),
-        statistics=header["statistics"],
-        error_estimate=header["error_estimate"],
-        hysteresis_errors=None if errors is None else tuple(errors),
-        energy=None if (found := group("energy")) is None else Energies(**found),
-        energy_residual=header["energy_residual"],
+        energy=Energies(**energy) if energy else None,
         fields=group("fields"),
-        move=arrays.get("move"),
-        inner_radius=arrays.get("inner_radius"),
-        rings=arrays.get("rings"),
-        shallow_start=None if began is None else ShallowStart(**began),
-        accuracy=header["accuracy"],
-        method=header["method"],
-        sensitivities=None if slopes is None else Sensitivities(**slopes),
-        versions=header["versions"],
+        shallow_start=began and ShallowStart(**began),
+        sensitivities=slopes and Sensitivities(**slopes),
     )

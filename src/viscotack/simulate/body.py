@@ -14,13 +14,11 @@ from scipy.interpolate import CubicSpline
 from viscotack.model.materials import Modes
 from viscotack.model.traction import grows
 from viscotack.simulate.ageing import Contacted
-from viscotack.simulate.closed_gap import pressed_shut
 from viscotack.simulate.contacts.contact import Contact, Relaxed
-from viscotack.simulate.equilibrium import Balance, descend
-from viscotack.simulate.gap_limits import least_gap, room
+from viscotack.simulate.equilibrium import Balance, descend, pressed_shut
 from viscotack.simulate.growth import Frozen, Opening, Stepped, bend, driven
 from viscotack.simulate.history import Snapshot
-from viscotack.simulate.interface import Faces
+from viscotack.simulate.interface import Faces, least_gap, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.memory import Memory, Step
 from viscotack.simulate.surface import Surface
@@ -148,7 +146,11 @@ class Body:
     def first(self, start: Relaxed) -> State:
         """Return the relaxed state, in which every mode is in equilibrium."""
         gap, surface = start.gap, start.surface
-        bonds = self._bonds_of_rest(gap)
+        bonds: Opening | Contacted | None = None
+        if self.runs:
+            bonds = Opening.none(gap)
+        elif self.growing is not None:
+            bonds = Contacted.relaxed(self.contact.law, self.growing, gap)
         if isinstance(bonds, Contacted):
             # the edge is where loading has left it; inside, old bonds hold the gap tighter
             free, hold = surface.rigid_gap, Hold(np.inf, depth=start.depth)
@@ -159,14 +161,6 @@ class Body:
         memory = Memory(np.tile(e, many), np.tile(-faces.tension, many))
         edge, rates = surface.edge(gap, self.contact.law.edge_gap), _at_rest(gap)
         return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, bonds)
-
-    def _bonds_of_rest(self, gap: npt.NDArray) -> Opening | Contacted | None:
-        """Return the bonds of a relaxed contact."""
-        if self.growing is None:
-            return None
-        if self.runs:
-            return Opening.none(gap)
-        return Contacted.relaxed(self.contact.law, self.growing, gap)
 
     def after(
         self, state: State, s: Step, hold: Hold, most_iterations: int, largest_gain: float

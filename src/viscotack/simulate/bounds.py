@@ -14,7 +14,7 @@ import numpy as np
 
 from viscotack.cards import cards
 from viscotack.errors import InputError
-from viscotack.model.problem import Case, Groups, Problem
+from viscotack.model.problem import Groups
 from viscotack.model.protocol import (
     Apart,
     Approach,
@@ -52,15 +52,15 @@ _MOVED = 1e-2
 _TICKS = 1e14
 
 
-def check_bounds(problem: Case, groups: Groups, contact: Contact) -> None:
+def check_bounds(groups: Groups, contact: Contact) -> None:
     """Reject a problem with a value outside the limits of a simulation.
 
     Raises
     ------
     ValueError
-        The message contains the value as given and the allowed range.
+        The message contains the value and the allowed range.
     """
-    _check_numbers(problem, groups)
+    _check_numbers(groups)
     reach = effective_range(groups.traction)
     if not _SHORTEST <= reach <= _LONGEST:
         raise InputError(
@@ -80,11 +80,6 @@ def check_bounds(problem: Case, groups: Groups, contact: Contact) -> None:
                     f"a punch, got {value:g}"
                 )
     _check_depths(groups, contact)
-    _check_age(groups)
-
-
-def _check_age(groups: Groups) -> None:
-    """Reject a relaxed contact, closed for ever, whose interface never stops to age."""
     law: Any = groups.traction
     if ages(law) and not isinstance(groups.start, Apart) and not np.isfinite(law.settled):
         raise InputError(
@@ -128,43 +123,31 @@ def check_clock(
             elapsed += lasting(depths[number], depths[number + 1], moves[number], contact)
 
 
-def _check_numbers(problem: Case, groups: Groups) -> None:
+def _check_numbers(groups: Groups) -> None:
     """Reject values of the test outside the floating-point range."""
-    stated = problem.protocol if isinstance(problem, Problem) else groups
-    for (name, value, measure), (_, given, _) in zip(
-        _numbers(groups), _numbers(stated), strict=True
-    ):
-        signed = measure in ("depth", "force")
-        least = {"stiffness": _SOFTEST}.get(measure, 0.0 if signed else _SMALLEST)
-        size = abs(value) if signed else value
-        if least <= size <= _LARGEST:
-            continue
-        unit = groups.units[measure]
-        of = f", which is {given:g} {problem.units[measure]}" if stated is not groups else ""
-        low = f"-{_LARGEST:g}" if signed else f"{least:g}"
-        raise InputError(
-            f"the {name} must lie between {low} and {_LARGEST:g} {unit} for a simulation, got "
-            f"{value:g} {unit}{of}"
-        )
-
-
-def _numbers(test: Any) -> Iterator[tuple[str, float, str]]:
-    """Yield the numbers of a test: name, value and measure."""
-    yield from _of("the start", test.start)
-    for number, move in enumerate(test.moves, 1):
-        yield from _of(f"move {number}", move)
+    nouns: dict[str, Any] = {"the start": groups.start}
+    for number, move in enumerate(groups.moves, 1):
+        nouns[f"move {number}"] = move
         if isinstance(move, Approach | Retract):
-            yield from _of(f"the end of move {number}", move.to)
-    for name in ("rate", "speed"):
-        if getattr(test, name, None) is not None:
-            yield f"{name} of the retraction", getattr(test, name), "speed"
-    if test.stiffness is not None:
-        yield "stiffness of the machine", test.stiffness, "stiffness"
-
-
-def _of(whose: str, noun: Any) -> Iterator[tuple[str, float, str]]:
-    for name, field in cards(type(noun)).items():
-        yield f"{name.replace('_', ' ')} of {whose}", getattr(noun, name), field.card.measure
+            nouns[f"the end of move {number}"] = move.to
+    numbers = [
+        (f"{name.replace('_', ' ')} of {whose}", getattr(noun, name), field.card.measure)
+        for whose, noun in nouns.items()
+        for name, field in cards(type(noun)).items()
+    ]
+    if groups.rate is not None:
+        numbers.append(("rate of the retraction", groups.rate, "speed"))
+    if groups.stiffness is not None:
+        numbers.append(("stiffness of the machine", groups.stiffness, "stiffness"))
+    for name, value, measure in numbers:
+        least = _SOFTEST if measure == "stiffness" else _SMALLEST
+        if measure in ("depth", "force"):  # of either sign
+            least = -_LARGEST
+        if not least <= value <= _LARGEST:
+            raise InputError(
+                f"the {name} must lie between {least:g} and {_LARGEST:g} {groups.units[measure]} "
+                f"for a simulation, got {value:g}"
+            )
 
 
 def _check_depths(groups: Groups, contact: Contact) -> None:

@@ -29,8 +29,8 @@ from viscotack.result.observables import pull_off
 from viscotack.simulate import solve
 from viscotack.simulate.crack_contact import crack_contact
 from viscotack.simulate.force_curve import Curve
+from viscotack.simulate.in_series import CRACKS, SIMULATION
 
-CRACKS, SIMULATION = "steady cracks", "simulation"
 # Number of starts of a family, and largest ratio of neighbouring works.
 _STARTS, _RATIO, _MOST_WORKS = 5, 1.15, 7
 # Starts closer than this fraction of the travel are one, and margin of the starts over their
@@ -268,7 +268,9 @@ def family(
     tell : callable
         Called with the completed share.
     """
-    nodes = _nodes(works)
+    if not min(works) > 0:
+        raise InputError(f"works of adhesion must be positive, got a factor of {min(works):.3g}")
+    nodes = nodes_between(min(works), max(works), _RATIO, _MOST_WORKS)
     middle = pad_curve(pull, AtForce(force))
     span = middle.curve.start - middle.curve.end
     low, high = min(rises), max(rises)
@@ -297,15 +299,12 @@ def family(
     return Family(nodes, tuple(rows), pull.is_elastic)
 
 
-def _nodes(works: Sequence[float] | Array) -> Array:
-    """Return factors on the work between which curves are interpolated."""
-    low, high = min(works), max(works)
-    if not low > 0:
-        raise InputError(f"works of adhesion must be positive, got a factor of {low:.3g}")
-    if low == high:
+def nodes_between(low: float, high: float, ratio: float, most: int) -> Array:
+    """Return values in geometric progression between which curves are interpolated."""
+    if high <= low * (1 + 1e-6):
         return np.array([low])
-    count = int(np.ceil(np.log(high / low) / np.log(_RATIO))) + 1
-    return np.geomspace(low, high, int(np.clip(count, 2, _MOST_WORKS)))
+    count = int(np.ceil(np.log(high / low) / np.log(ratio))) + 1
+    return np.geomspace(low, high, int(np.clip(count, 2, most)))
 
 
 def _between(nodes: Array, value: float) -> tuple[int, float]:
@@ -341,7 +340,7 @@ def _blend(curves: Sequence[Curve], weights: Array, start: float) -> Curve:
     if close.size:
         only = curves[int(close[0])]
         return only.moved(start - only.start)
-    parts = np.unique(np.concatenate([_travelled(each) for each in curves]))
+    parts = np.unique(np.concatenate([(c.start - c.position) / (c.start - c.end) for c in curves]))
     if parts.size > 2 * _POINTS:
         parts = np.unique(np.append(parts[:: parts.size // _POINTS], 1.0))
     travels = np.array([each.start - each.end for each in curves])
@@ -350,7 +349,3 @@ def _blend(curves: Sequence[Curve], weights: Array, start: float) -> Curve:
     ]
     position = start - parts * float(weights @ travels)
     return Curve(np.append(position, position[-1]), np.append(weights @ np.array(forces), 0.0))
-
-
-def _travelled(curve: Curve) -> Array:
-    return (curve.start - curve.position) / (curve.start - curve.end)

@@ -23,9 +23,9 @@ import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
 from viscotack.clock import look
+from viscotack.errors import InputError
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.gap_limits import released, room
-from viscotack.simulate.interface import Band, Faces
+from viscotack.simulate.interface import Band, Faces, released, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.surface import Surface
 
@@ -71,7 +71,7 @@ class Balance:
 
 
 @dataclass(frozen=True, eq=False)
-class _Elastic:
+class Elastic:
     """Elastic energy of solid and machine, v M v/2 + f v, with v the gap minus the free gap.
 
     A rigid machine fixes the depth. With a spring, the depth minimises the energy,
@@ -87,7 +87,9 @@ class _Elastic:
     softness: float
 
     @classmethod
-    def of(cls, stiffness: npt.NDArray, free_gap: npt.NDArray, hold: Hold) -> _Elastic:
+    def of(cls, surface: Surface, compliance: float, free_gap: npt.NDArray, hold: Hold) -> Elastic:
+        """Return the energy for a compliance of the solid and a gap without load."""
+        stiffness = surface.stiffness / compliance
         if hold.rigid:
             return cls(stiffness, 0.0, free_gap - hold.depth, hold, None, 0.0)
         s = stiffness.sum(axis=1)
@@ -96,6 +98,7 @@ class _Elastic:
         return cls(matrix, softness * hold.load * s, free_gap, hold, s, softness)
 
     def depth(self, gap: npt.NDArray) -> float:
+        """Return the depth [h0] at which the machine is in equilibrium with a gap."""
         if self.pushed is None:
             return self.hold.depth
         return self.softness * (self.hold.load - float(self.pushed @ (gap - self.free)))
@@ -109,24 +112,12 @@ class _Elastic:
         return 0.5 * float(v @ Mv) + float(self.linear @ v), Mv + self.linear  # type: ignore[operator]
 
 
-def elastic_energy(
-    surface: Surface, compliance: float, free_gap: npt.NDArray, hold: Hold
-) -> _Elastic:
-    """Return the elastic energy of solid and machine as a function of the gap."""
-    return _Elastic.of(surface.stiffness / compliance, free_gap, hold)
-
-
-def factored(solid: _Elastic, curvature: Band) -> npt.NDArray | None:
-    """Return the Cholesky factor of the tangent, None if it is not positive definite."""
-    return _factor(solid.matrix, curvature)
-
-
 def solved(factor: Any, right: npt.NDArray) -> npt.NDArray:
     """Solve a linear system with a factored tangent."""
     return _potrs(factor, right, lower=1)[0]
 
 
-def _factor(stiffness: npt.NDArray, curvature: Band):
+def factored(stiffness: npt.NDArray, curvature: Band) -> npt.NDArray | None:
     """Return the Cholesky factor of stiffness + curvature, None if not positive definite."""
     tangent, next_diagonal = stiffness.copy(), len(stiffness) + 1
     entries = tangent.reshape(-1)
@@ -148,12 +139,12 @@ def _stiffened(stiffness: npt.NDArray, curvature: Band):
     diagonal, beside = curvature
     softest = max(-float(np.min(diagonal)), _SLIGHT * float(np.max(np.diag(stiffness))))
     for share in _STIFFER:
-        factor = _factor(stiffness, Band(diagonal + share * softest, beside))
+        factor = factored(stiffness, Band(diagonal + share * softest, beside))
         if factor is not None:
             return factor
-    factor = _factor(stiffness, Band(np.maximum(diagonal, 0.0)))
+    factor = factored(stiffness, Band(np.maximum(diagonal, 0.0)))
     # under a dead load the solid alone does not resist every displacement
-    return _factor(stiffness, Band(diagonal + 1.1 * softest)) if factor is None else factor
+    return factored(stiffness, Band(diagonal + 1.1 * softest)) if factor is None else factor
 
 
 def descend(
@@ -178,7 +169,7 @@ def descend(
     iteration would continue along that flat valley. If the iterations run out, the returned balance
     is marked as not stable.
     """
-    solid = _Elastic.of(surface.stiffness / compliance, free_gap, hold)
+    solid = Elastic.of(surface, compliance, free_gap, hold)
     face, gap, span = surface.interface, guess, effective_range(law)
     elastic, pull = solid.at(gap)
     faces = face.at(law, gap)
@@ -191,7 +182,7 @@ def descend(
         look()
         if factor is None:
             curvature = faces.tangent()
-            factor = _factor(solid.matrix, curvature)
+            factor = factored(solid.matrix, curvature)
             stable = factor is not None
             if factor is None:
                 factor = _stiffened(solid.matrix, curvature)
@@ -234,3 +225,47 @@ def descend(
         if not kept:
             factor = None
     return Balance(gap, faces, solid.depth(gap), most_iterations, False)
+
+
+class ClosedGap(InputError):
+    """Surfaces are pressed together harder than the traction law can repel.
+
+    The repulsion of a law may be finite at zero gap (exponential, Dugdale, tabulated). A larger
+    pressure closes the gap to 0, where the law ends: the reason is not missing adhesion.
+    """
+
+
+def pressed_shut(surface: Surface, gap: npt.NDArray, relaxed: npt.NDArray) -> float:
+    """Return the pressure [dg/h0] where the gap is closed completely, 0 if it is open.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+    gap : ndarray, shape (N,)
+        Gap at the end of a search without equilibrium [h0].
+    relaxed : ndarray, shape (N,)
+        Displacement of the relaxed solid under this pressure [h0].
+    """
+    gone = gap < GONE
+    if not gone.any():
+        return 0.0
+    return float(np.max((surface.stiffness @ relaxed / surface.area)[gone]))
+
+
+def why(law: Traction, pressure: float) -> str:
+    """Return the explanation for the error message."""
+    most = -float(law.traction(GONE * law.equilibrium_gap))
+    return (
+        f"the contact presses with up to {pressure:.4g} dg0/h0, and the traction law repels with "
+        f"{most:.4g} dg0/h0 at most, at a gap of 0, where it ends; press less, or take a law that "
+        "repels more strongly, such as lennard-jones or one of shorter range"
+    )
+
+
+def check_open(surface: Surface, law: Traction, gap: npt.NDArray, depth: float, of: str) -> None:
+    """Raise `ClosedGap` if the search for a relaxed contact has closed the gap."""
+    if pressure := pressed_shut(surface, gap, gap - surface.rigid_gap + depth):
+        raise ClosedGap(
+            f"no relaxed contact exists at a depth of {depth:g} h0 ({of}): {why(law, pressure)}"
+        )

@@ -14,21 +14,12 @@ from math import hypot
 import numpy as np
 
 from viscotack.clock import TimeUp
-from viscotack.result import Result
-from viscotack.result.dead_load import time_held
-from viscotack.result.observables import (
-    PullOff,
-    depth_shift,
-    equal_peak,
-    fold_shift,
-    peaks,
-    pull_off,
-    step_shift,
-    work_lost,
-    work_to,
-)
-from viscotack.result.parts import move_numbers, moves_of, waits
-from viscotack.simulate.loop_error import hysteresis_errors
+from viscotack.result import Outcome, Result
+from viscotack.result.cycles import time_held
+from viscotack.result.loops import Loop, loop_of, lost_in
+from viscotack.result.observables import PullOff, equal_peak, peaks, pull_off, work_to
+from viscotack.result.opening import between_steps, lost_beside, reach_of_fold
+from viscotack.result.parts import Span, move_numbers, moves_of, spans, waits
 from viscotack.simulate.preload import Beginning
 
 # Ratio of the errors of the coarser run to those of the main run.
@@ -70,7 +61,7 @@ def estimated(
     except (ValueError, TimeUp):  # no start or no time left: no estimate
         return result
     errors = _of_end(result, coarse, beginning, travel, accuracy) or {}
-    loops = hysteresis_errors(result, coarse, accuracy, COARSER)
+    loops = hysteresis_errors(result, coarse, accuracy)
     if loops is not None:
         errors["hysteresis"] = float(np.nanmax(loops))
     return replace(result, error_estimate=errors or None, hysteresis_errors=loops)
@@ -113,18 +104,22 @@ def _of_pull_off(
 ) -> dict[str, float]:
     """Return the errors at a pull-off, from the matching peak of the coarser run."""
     work, other = work_to(result, found), work_to(coarse, alike)
-    energy = found.force * result.problem.outputs.energy_factor(result.groups)
+    to_unit = result.problem.outputs.energy_factor(result.groups)
+    energy = found.force * to_unit
     off = {"work": abs(work - other), "depth": abs(found.depth - alike.depth)}
     size = {"work": abs(work), "depth": abs(work) / energy}
     slope, more = accuracy / travel, _ELASTIC if result.groups.modulus_ratio == 1 else 1.0
     if result.groups.body.decay_length == 0:
         more *= _SPRINGS
-    shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
+    last = spans(result)[-1]
+    beside = slope * lost_beside(result, last)
+    shift = {"work": beside * to_unit, "depth": beside / found.force}
     share = abs(found.force - alike.force) / found.force
     force = more * from_difference("force", share, accuracy)
     # under a growing load both end by chance near the largest force, and may end at one place;
     # where the force bends within a step, both may have their minimum at the same wrong place
-    place = hypot(fold_shift(result, force), step_shift(result))
+    fold = force**0.5 * reach_of_fold(result, last)
+    place = hypot(fold, between_steps(result, last))
     chance = {"work": place * energy, "depth": place}
     error = {
         name: hypot(
@@ -166,3 +161,41 @@ def _add_branch(result: Result, estimate: dict[str, float]) -> None:
 def _holds(result: Result) -> bool:
     """Return whether a test ends with a held load, so that its error is that of the time."""
     return waits(moves_of(result)[int(move_numbers(result)[-1])], "force")
+
+
+# Shares in the error: of the difference to the companion over what its errors exceed those of the
+# run by; of the energy that is missing after the cycle; of what moving between meshes took; and of
+# the hysteresis times the accuracy. Each alone is small by chance now and then.
+_DIFFERENCE, _MESHES, _OF_LOSS = 1.5, 0.5, 0.15
+
+
+def hysteresis_errors(result: Result, coarse: Result, accuracy: float) -> tuple[float, ...] | None:
+    """Return the relative error of the hysteresis of each cycle, nan where its loop is open.
+
+    None where no loop closed, or the companion went another way.
+    """
+    cycles, others = spans(result), spans(coarse)
+    loops = [loop_of(result, span) for span in cycles]
+    if coarse.outcome is Outcome.STOPPED or len(cycles) != len(others):
+        return None
+    if all(loop is Loop.OPEN for loop in loops):
+        return None
+    errors = []
+    for span, other, loop in zip(cycles, others, loops, strict=True):
+        lost = lost_in(result, span, loop)
+        differs = abs(lost - lost_in(coarse, other, loop))
+        error = _DIFFERENCE * differs / (COARSER - 1) + _missed(result, span)
+        error += _OF_LOSS * accuracy * abs(lost)
+        errors.append(error / max(abs(lost), np.finfo(float).tiny))
+    return tuple(float(error) for error in errors)
+
+
+def _missed(result: Result, span: Span) -> float:
+    """Return the shares of what the energies of a cycle miss, and of what the meshes took."""
+    energy = result.energy
+    assert energy is not None, "a simulation has its energies"
+    spent = energy.elastic + energy.interface + energy.spring + energy.heat + energy.interface_heat
+    missing = energy.drive - spent - energy.jumps - energy.transfer
+    ends = [span.first, span.last]
+    meshes = abs(float(np.diff(energy.transfer[ends])[0]))
+    return abs(float(np.diff(missing[ends])[0])) + _MESHES * meshes

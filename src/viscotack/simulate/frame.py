@@ -36,8 +36,7 @@ from viscotack.clock import look
 from viscotack.model.materials import Modes
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.equilibrium import descend
-from viscotack.simulate.gap_limits import room
-from viscotack.simulate.interface import Band, Faces
+from viscotack.simulate.interface import Band, Faces, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.surface import Surface
 

@@ -59,9 +59,8 @@ from scipy.interpolate import CubicSpline
 
 from viscotack.clock import look
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.equilibrium import Balance, elastic_energy, factored, solved
-from viscotack.simulate.gap_limits import room
-from viscotack.simulate.interface import Band
+from viscotack.simulate.equilibrium import Balance, Elastic, factored, solved
+from viscotack.simulate.interface import Band, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.surface import Surface
 
@@ -259,7 +258,7 @@ def driven(
     The iteration uses the opening instead of the gap, because for nearly closed surfaces the
     opening in a step has more significant digits.
     """
-    solid = elastic_energy(surface, compliance, free, hold)
+    solid = Elastic.of(surface, compliance, free, hold)
     area, span = surface.area, effective_range(law.base)
     opened = guess - law.since
     gap, speed = law.since + opened, opened * law.per
@@ -275,7 +274,7 @@ def driven(
         slope[steep] = growth[steep] / speed[steep]
         slope = np.where(speed == 0, law.growing.growth_slope(np.finfo(float).tiny), slope)
         stiffness = law.base.stiffness(gap) * np.where(at_rest > 0, 1 + growth, 1.0)
-        factor = factored(solid, Band(area * (stiffness + pulls * slope * law.per)))
+        factor = factored(solid.matrix, Band(area * (stiffness + pulls * slope * law.per)))
         if factor is None:
             return None, None
         if np.sum(np.abs(residual)) < _UNBALANCED * np.sum(np.abs(tension)):

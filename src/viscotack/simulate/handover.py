@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from time import perf_counter
+
 import numpy as np
 
-from viscotack.errors import InputError
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.result import Outcome, Result
 from viscotack.simulate.crack_contact.by_crack import LARGEST_TABOR, METHOD, crack_contact
-from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
-from viscotack.theory.crack.contact import profile_of
+from viscotack.simulate.crack_contact.crack_problem import not_covered
 
 
 def too_short(groups: Groups) -> bool:
@@ -21,20 +21,12 @@ def too_short(groups: Groups) -> bool:
     return least < groups.effective_tabor <= LARGEST_TABOR
 
 
-def has_start(groups: Groups) -> bool:
-    """Whether the relaxed contact at the start of the test exists."""
-    try:
-        start_of(groups, profile_of(groups.geometry))
-    except InputError:
-        return False
-    return True
-
-
-def answered(problem: Problem | Groups) -> Result:
+def answered(problem: Problem | Groups, accuracy: float) -> Result:
     """Convert the result of :func:`crack_contact` to a :class:`viscotack.Result`.
 
     Energies are not available; the error of the force is the band.
     """
+    began = perf_counter()
     found = crack_contact(problem)
     outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT
     if not np.any(found.contact_radius > 0):
@@ -51,7 +43,8 @@ def answered(problem: Problem | Groups) -> Result:
             f"{outcome}; the range of the forces, a Tabor number of {groups.effective_tabor:.4g}, "
             "is too short to simulate: computed with the steady-crack contact model"
         ),
-        statistics={"steps": found.time.size - 1},
+        statistics={"steps": found.time.size - 1, "wall_time_s": perf_counter() - began},
+        accuracy=accuracy,
         error_estimate=None if found.pull_off_force is None else {"force": found.band},
         move=found.move,
         method=METHOD,

@@ -142,6 +142,40 @@ class History:
     meshes: int = 1
     nodes: int = 0
 
+    @property
+    def statistics(self) -> dict[str, float]:
+        """Numbers of steps and of iterations."""
+        return {
+            "steps": len(self.snapshots) - 1,
+            "newton_iterations": self.iterations,
+            "rejected_steps": self.rejected,
+        }
+
+    def seen(self, name: str) -> npt.NDArray:
+        """Return a recorded quantity at every snapshot."""
+        return np.array([getattr(snapshot, name) for snapshot in self.snapshots])
+
+    def energies(self) -> dict[str, npt.NDArray]:
+        """Return the energies of :class:`viscotack.result.Energies` at every snapshot.
+
+        If force or depth is prescribed, the drive follows and the energy F^2/2K of the spring is
+        still given by F.
+        """
+        force = self.seen("force")
+        spring = np.zeros_like(force) if self.stiffness is None else force**2 / (2 * self.stiffness)
+        names = ("work", "jumps", "transfer", "interface")
+        spent = {name: np.array([getattr(b, name) for b in self.books]) for name in names}
+        return {
+            "drive": spent["work"] + (spring - spring[0]),
+            "elastic": self.seen("elastic"),
+            "interface": self.seen("interface"),
+            "spring": spring,
+            "heat": np.array([b.heat for b in self.books]).sum(axis=1),
+            "jumps": spent["jumps"],
+            "transfer": spent["transfer"],
+            "interface_heat": spent["interface"],
+        }
+
     def measure(self, books: EnergyTerms, now: Snapshot) -> float:
         """Return the energy scale of the imbalance at an instant: the largest energy term.
 

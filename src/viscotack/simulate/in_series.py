@@ -9,7 +9,7 @@ the second stronger, and the reverse.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isnan
 from typing import Any
 
@@ -149,14 +149,7 @@ def _side(problem: Problem) -> _Side:
             f"steady cracks in series cover {reason}; simulate both contacts (--simulate, "
             "simulate=True)"
         )
-    groups = Groups(
-        tabor=groups.tabor,
-        material=groups.material,
-        start=groups.start,
-        rate=groups.rate,
-        traction=groups.traction,
-        geometry=groups.geometry,
-    )
+    groups = replace(groups, moves=(), stiffness=None)
     assert groups.tabor is not None
     profile = profile_of(groups.geometry)
     scales = Scales(si.length * groups.tabor, si.force / (1.5 * np.pi), si.time)

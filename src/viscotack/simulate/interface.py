@@ -10,7 +10,7 @@ the surface (:func:`viscotack.simulate.surface.stiffness`).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, Protocol
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -36,57 +36,19 @@ class Band(NamedTuple):
     beside: npt.NDArray | None = None
 
 
-class Faces(Protocol):
-    """The interface at given gaps."""
-
-    @property
-    def gap(self) -> npt.NDArray:
-        """The gaps at the nodes [h0]."""
-        ...
-
-    @property
-    def energy(self) -> float:
-        """Energy [dg times the unit of area]."""
-        ...
-
-    @property
-    def tension(self) -> npt.NDArray:
-        """Derivative of the energy by the gaps: nodal forces, tension positive."""
-        ...
-
-    def tangent(self) -> Band:
-        """Return the second derivatives of the energy by the gaps."""
-        ...
-
-
-class Interface(Protocol):
-    """Interface as used by the equilibrium solver and the energy balance.
-
-    Attributes
-    ----------
-    smoothing : float
-        Divisor of the squared panel width in the curvature correction of the stiffness.
-    """
-
-    smoothing: ClassVar[float]
-
-    def at(self, law: Traction, gap: npt.NDArray) -> Faces:
-        """Return the interface at gaps at the nodes [h0]."""
-        ...
-
-
 @dataclass(frozen=True, eq=False)
 class AtNodes:
     """Law evaluated at each node and multiplied by its area."""
 
+    # divisor of the squared panel width in the curvature correction of the stiffness
     smoothing: ClassVar[float] = 24.0
 
     area: npt.NDArray
 
-    def at(self, law: Traction, gap: npt.NDArray) -> Faces:
+    def at(self, law: Traction, gap: npt.NDArray) -> NodeFaces:
         """Return the interface at gaps at the nodes [h0]."""
         energy, tension = energy_and_traction(law, gap)
-        return _NodeFaces(self.area, law, gap, float(self.area @ energy), self.area * tension)
+        return NodeFaces(self.area, law, gap, float(self.area @ energy), self.area * tension)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +71,7 @@ class OnPanels:
 
     panels: npt.NDArray
 
-    def at(self, law: Traction, gap: npt.NDArray) -> Faces:
+    def at(self, law: Traction, gap: npt.NDArray) -> PanelFaces:
         """Return the interface at gaps at the nodes [h0]."""
         step = np.diff(gap)
         even = np.abs(step) < _EVEN
@@ -129,11 +91,13 @@ class OnPanels:
         energy = float(self.panels @ mean)
         tension = _spread(self.panels * first, self.panels * last)
         panels = step, mean, at_nodes, even, between
-        return _PanelFaces(self.panels, law, gap, energy, tension, *panels)
+        return PanelFaces(self.panels, law, gap, energy, tension, *panels)
 
 
 @dataclass(frozen=True, eq=False)
-class _NodeFaces:
+class NodeFaces:
+    """A law at the nodes at given gaps: energy, and nodal forces, tension positive."""
+
     area: npt.NDArray
     law: Traction
     gap: npt.NDArray
@@ -141,11 +105,12 @@ class _NodeFaces:
     tension: npt.NDArray
 
     def tangent(self) -> Band:
+        """Return the second derivatives of the energy by the gaps."""
         return Band(self.area * self.law.stiffness(self.gap))
 
 
 @dataclass(frozen=True, eq=False)
-class _PanelFaces:
+class PanelFaces:
     """Means over panels, energies at nodes; `even` panels by their points `between`."""
 
     panels: npt.NDArray
@@ -160,6 +125,7 @@ class _PanelFaces:
     between: npt.NDArray
 
     def tangent(self) -> Band:
+        """Return the second derivatives of the energy by the gaps."""
         mean, step, energy = self.mean, self.step, self.at_nodes
         pull = self.law.traction(self.gap)
         first = (2 * (mean - energy[:-1]) / step - pull[:-1]) / step
@@ -171,6 +137,10 @@ class _PanelFaces:
             last[self.even] = _WEIGHTS @ (t**2 * k)
             both[self.even] = _WEIGHTS @ (t * (1 - t) * k)
         return Band(_spread(self.panels * first, self.panels * last), self.panels * both)
+
+
+Interface = AtNodes | OnPanels
+Faces = NodeFaces | PanelFaces
 
 
 def resolved(law: Traction) -> bool:
@@ -185,3 +155,41 @@ def interface(law: Traction, area: npt.NDArray, panels: npt.NDArray) -> Interfac
 
 def _spread(first: npt.NDArray, last: npt.NDArray) -> npt.NDArray:
     return np.append(first, 0.0) + np.append(0.0, last)
+
+
+# Length scales of the law in gap direction: multiples of its range, which is 1 for Lennard-Jones,
+# counted from the gap of equilibrium at 1 h0, so that steps and meshes scale with the range.
+# The surfaces have separated when the smallest gap exceeds this multiple of the range; the
+# remaining work is the energy of the interface there.
+_SEPARATED = 9.0
+# Opening of the smallest gap, in ranges, above which a contact cannot hold a dead load.
+_RELEASED = 29.0
+# Smallest gap after interpolation to new nodes: closed by this fraction of the range, where every
+# law repels strongly, but at least a tenth of h0. A steep gap may undershoot in the interpolation.
+_CLOSED, _LEAST = 0.2, 0.1
+# Smallest value of `room`, as a fraction of the range, for gaps below equilibrium.
+_LEAST_ROOM = 0.1
+
+
+def separated(gap: npt.NDArray, span: float) -> bool:
+    """Return whether the surfaces have separated."""
+    return float(gap.min()) > 1 + _SEPARATED * span
+
+
+def released(gap: npt.NDArray, span: float) -> bool:
+    """Return whether the surfaces are too far apart to hold a dead load."""
+    return float(gap.min()) > 1 + _RELEASED * span
+
+
+def least_gap(span: float) -> float:
+    """Return the smallest gap [h0] of an initial guess."""
+    return max(1 - _CLOSED * span, _LEAST)
+
+
+def room(gap: npt.NDArray, span: float) -> npt.NDArray:
+    """Return the change of gap [h0] over which the traction changes considerably.
+
+    It is the gap itself for Lennard-Jones, whose traction is made of powers; for any law it is
+    about the range near equilibrium, grows with the opening, and never more than the gap.
+    """
+    return np.minimum(gap, np.maximum(gap + (span - 1), _LEAST_ROOM * span))

@@ -17,8 +17,7 @@ from viscotack.simulate.body import Trial
 from viscotack.simulate.history import Snapshot
 from viscotack.simulate.memory import Step, step
 from viscotack.simulate.mesh import Mesh
-from viscotack.simulate.remesh import around_edge, lost
-from viscotack.simulate.state import MarchState, Run
+from viscotack.simulate.state import MarchState, Run, around_edge, lost
 from viscotack.simulate.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
 
 # Maximum number of iterations from the end of a branch to the next stable state.
@@ -72,7 +71,9 @@ def followed(run: Run, at: MarchState) -> MarchState:
     now, then = at.seen, moved.seen
     books = moved.books
     tipped = abs(then.force - now.force) > force_change(run, moved)
-    if not (tipped or _went_far(run, moved, now)):
+    # a contact that no rigid machine holds may move as by a jump
+    went_far = abs(then.depth - now.depth) > travel(run, moved)
+    if not (tipped or went_far or (now.edge > 0) != (then.edge > 0)):
         return replace(moved, books=replace(books, transfer=books.transfer + gone))
     if gone < -_CREATED * run.settings.imbalance * run.history.measure(books, now):
         return _staying(at)
@@ -85,12 +86,6 @@ def followed(run: Run, at: MarchState) -> MarchState:
         books=replace(books, jumps=books.jumps + gone),
         dt=at.leg.least_step,
     )
-
-
-def _went_far(run: Run, moved: MarchState, now: Snapshot) -> bool:
-    """Return whether remeshing moved a contact, not held by a rigid machine, as by a jump."""
-    then = moved.seen
-    return (now.edge > 0) != (then.edge > 0) or abs(then.depth - now.depth) > travel(run, moved)
 
 
 def _way_down(run: Run, at: MarchState, s: Step) -> tuple[Step, Trial]:

@@ -10,9 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import inf, isinf, isnan, nan
 
-import numpy as np
-import numpy.typing as npt
-
 from viscotack.simulate.history import Snapshot
 
 
@@ -114,20 +111,3 @@ class Leg:
         edge = 0.0 if isnan(now.edge) else now.edge
         ends = (self.depth - now.depth, self.force - now.force, self.edge - edge)
         return min((way * x for x in ends if not isnan(x)), default=inf)
-
-
-def spring_energy(force: npt.NDArray, stiffness: float | None) -> npt.NDArray:
-    r"""Return the energy in the spring of the machine, whatever is imposed.
-
-    .. math:: U = F^2 / (2 K)
-
-    If force or depth is prescribed, the drive follows and the spring energy is still given by F.
-
-    Parameters
-    ----------
-    force : ndarray
-        Force of the contact [output unit].
-    stiffness : float or None
-        K [output force/h0]; None without a spring.
-    """
-    return np.zeros_like(force) if stiffness is None else force**2 / (2 * stiffness)

@@ -5,39 +5,60 @@ a step and shortens it until it is accepted. Steps are taken in the frame of the
 the edge travels (:mod:`.travelling`), otherwise in the frame of the solid (:mod:`.steps`). If even
 the shortest step fails, the solver treats it as a jump (:mod:`.jumps`). After each step the solver
 checks whether the leg or the whole run has ended, and whether the fine nodes must follow the edge
-(:mod:`.remesh`). Module :mod:`.books` defines the recorded quantities.
+(:mod:`.state`). Module :mod:`.history` defines the recorded quantities.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from math import isfinite
+from dataclasses import dataclass, replace
+from math import isfinite, isinf
 from typing import Any
 
 import numpy as np
 
 from viscotack.clock import TimeUp
+from viscotack.errors import InputError
 from viscotack.model.materials import Modes
 from viscotack.simulate.body import Body
 from viscotack.simulate.contacts.contact import Contact, Relaxed
-from viscotack.simulate.gap_limits import separated
 from viscotack.simulate.history import SMALLEST_ENERGY, EnergyTerms, History, Lowest, Snapshot
+from viscotack.simulate.interface import separated
 from viscotack.simulate.jumps import followed, shortest_step
-from viscotack.simulate.last_peak import over
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.memory import step
 from viscotack.simulate.mesh import Grading, Mesh
-from viscotack.simulate.remesh import opening
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.state import MarchState, Run
-from viscotack.simulate.steps import arrived, clipped, is_shortest, shortened, tried, weighed
+from viscotack.simulate.state import MarchState, Run, opening
+from viscotack.simulate.steps import arrived, clipped, is_shortest, over, shortened, tried, weighed
 from viscotack.simulate.travelling import ahead, travelled
 
 # Absolute tolerance within which a target depth, force or edge counts as reached, in its unit.
 _MET = 1e-9
 # Relative change of a dead load in its first step if it begins at a limit point.
 _NOTICED = 1e-3
+
+
+# not the Scales of the theory: it shares nothing with the simulation, so that each judges the other
+@dataclass(frozen=True)
+class Units:
+    """SI values of the units of a contact: depth [m], force [N], time [s]."""
+
+    depth: float
+    force: float
+    time: float
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One of the two contacts with its relaxed start, in its own units."""
+
+    contact: Contact
+    start: Relaxed
+    modes: Modes
+    grading: Grading
+    units: Units
+    growing: Any = None
 
 
 def march(
@@ -57,7 +78,7 @@ def march(
 ) -> History:
     """Integrate a relaxed body through all legs and return the history.
 
-    `until` is "pull-off" (stop after the largest tension of the last leg, see :mod:`.later`) or
+    `until` is "pull-off" (stop after the largest tension of the last leg, :func:`.steps.over`) or
     "detached" (stop when the surfaces have separated). `stiffness` is the spring stiffness of the
     machine [output force/h0]. The traction law of the contact is that at rest; `growing` is the law
     itself if its tension grows with the opening speed or the time in contact, otherwise None.
@@ -224,3 +245,83 @@ def _share(run: Run, at: MarchState) -> float:
     else:
         part = 1 - (edge / at.began.edge if edge > 0 else 0.0) if at.began.edge > 0 else 0.0
     return (at.number + min(max(part, 0.0), 1.0)) / len(run.legs)
+
+
+def begun_run(
+    part: Part, leg: Leg, settings: Settings, stiffness: float | None = None
+) -> tuple[Run, MarchState]:
+    """Return a run of one leg from the relaxed start, and its first place, which is kept.
+
+    `stiffness` is that of the spring of the machine [output force/h0], None without one.
+    """
+    body = Body(part.contact, part.modes, np.asarray(part.modes.weights), part.growing)
+    history = History(SMALLEST_ENERGY * part.contact.span, stiffness)
+    run = Run(body, settings, (leg,), False, history)
+    at = first_place(run, part.start, part.grading)
+    run.keep(at)
+    return run, at
+
+
+class SteppedSimulation:
+    """A contact at its relaxed start, moved by a drive in pieces of constant speed.
+
+    All is dimensionless, as in a result. The equations and steps are those of a history
+    (:mod:`.march`), but the next piece of it may depend on what the last one did.
+
+    Parameters
+    ----------
+    part : Part
+        The contact, with modes for the shortest step and for the time of all pieces.
+    stiffness : float
+        Of the spring between drive and indenter; infinite for a rigid machine.
+    least_step : float
+        Length of the first step.
+    settings : Settings
+        Mesh and steps.
+    """
+
+    def __init__(
+        self, part: Part, stiffness: float, *, least_step: float, settings: Settings
+    ) -> None:
+        self._leg = Leg(stiffness, 0.0, least_step=least_step)
+        spring = None if isinf(stiffness) else stiffness
+        self._run, self._at = begun_run(part, self._leg, settings, spring)
+
+    @property
+    def now(self) -> Snapshot:
+        """Time, depth, force and edge at present."""
+        return self._at.seen
+
+    @property
+    def apart(self) -> bool:
+        """Whether the surfaces have separated."""
+        return self._run.history.outcome == "detached"
+
+    @property
+    def tension(self) -> float:
+        """Largest tension of all steps so far, positive."""
+        return max(-min(step.force for step in self._run.history.snapshots), 0.0)
+
+    def move(self, speed: float, duration: float) -> Snapshot:
+        """Move the drive at a speed for a time, and return the observed state.
+
+        Parameters
+        ----------
+        speed : float
+            Of the drive, positive into the solid [h0 per time unit].
+        duration : float
+            Positive [time unit].
+
+        Raises
+        ------
+        ValueError
+            If no equilibrium is found, or the limit on steps is reached.
+        """
+        leg = replace(self._leg, rate=speed, duration=duration)
+        run = replace(self._run, legs=(leg,))
+        self._at = advanced(run, self._at, leg)
+        if (outcome := run.history.outcome) not in ("", "end", "detached"):
+            raise InputError(f"the contact cannot be moved on: {outcome}")
+        if outcome == "end":
+            run.history.outcome = ""
+        return self.now

@@ -28,7 +28,7 @@ long.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log
 
 import numpy as np
@@ -38,7 +38,7 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.model.materials import Material
 from viscotack.model.problem import Groups
-from viscotack.model.protocol import Apart
+from viscotack.model.protocol import Apart, AtDepth
 from viscotack.model.traction import has_rest
 from viscotack.result import Result, ShallowStart
 from viscotack.result.observables import pull_off, work_to_pull_off
@@ -94,7 +94,7 @@ def shallower(
     groups: Groups,
     contact: Contact,
     settings: Settings,
-    light: Callable[[float], Result],
+    light: Callable[[Groups], Result],
 ) -> Beginning | None:
     """Return a shallower start that gives the same pull-off, None to use the given start.
 
@@ -107,7 +107,7 @@ def shallower(
     settings : Settings
         Settings of the main run.
     light : callable
-        Runs a simulation from a depth [h0] to the pull-off with coarser settings.
+        Simulates a test to the pull-off with coarser settings.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def shallower(
     ends: list[_End] = []
     depth = _FIRST * contact.travel
     while depth <= _WORTH * asked and _LIGHT * _steps(ends, depth) <= settings.most_steps:
-        end = _ended(light, depth, groups.material)
+        end = _ended(light, replace(groups, start=AtDepth(depth)), depth)
         if end is not None:
             effects = _effects(ends, end, groups.material)
             start = ShallowStart(asked, depth, **effects, shift=_shift(groups, end, asked))
@@ -148,15 +148,15 @@ def _asked(groups: Groups, contact: Contact) -> float:
     return contact.deepest(groups.start)
 
 
-def _ended(light: Callable[[float], Result], depth: float, material: Material) -> _End | None:
+def _ended(light: Callable[[Groups], Result], groups: Groups, depth: float) -> _End | None:
     """Run a coarse simulation from a depth; None if it has no start or no pull-off."""
     try:
-        result = light(depth)
+        result = light(groups)
         found, work = pull_off(result), work_to_pull_off(result)
     except InputError:
         return None
     values = {"force": found.force, "work": work}
-    left = float(_left(material, found.time))
+    left = float(_left(groups.material, found.time))
     return _End(depth, values, found.depth, found.time, left, result)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from viscotack.model.geometry import Body, Layer
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, Accuracy
 from viscotack.model.traction import Traction, softening
 from viscotack.simulate.interface import resolved
-from viscotack.simulate.mesh import Grading
+from viscotack.simulate.mesh import EndedGrading, Grading
 
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
@@ -112,21 +112,8 @@ class Settings:
             If the accuracy is outside 1e-6 to 0.02.
         """
         accuracy = card_of(Accuracy).checked("accuracy", accuracy)
-        s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
-        return cls(
-            accuracy=accuracy,
-            nodes_per_zone=max(4.8 / np.sqrt(s), _FEWEST_NODES),
-            fine_zones=5,
-            growth_inside=0.065 * s,
-            growth_outside=0.08 * s,
-            reach=100 / s,
-            step_error=1.5e-3 * s * s,
-            force_change=0.05 * s,
-            travel=0.05 * s,
-            first_travel=2e-4 * s,
-            imbalance=3e-5 * s * s,
-            mode_tolerance=0.05 * accuracy,
-        )
+        scaled = _DEFAULT._scaled(float(np.sqrt(accuracy / DEFAULT_ACCURACY)))
+        return replace(scaled, accuracy=accuracy, mode_tolerance=0.05 * accuracy)
 
     @property
     def coarseness(self) -> float:
@@ -153,6 +140,15 @@ class Settings:
             outer_radius=outer_radius,
         )
 
+    def grading_to_end(self, zone: float, law: Traction, size: float, body: Body) -> EndedGrading:
+        """Return the grading for a crack from the end of an indenter of this size on a body."""
+        crack = self.grading(zone, law, size)
+        # nodes lie on a lattice that begins at the end, and no scar beyond the middle
+        spacing = min(crack.spacing, size / 8)
+        finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
+        finest |= {"scar_half_width": min(crack.scar_half_width, size)}
+        return EndedGrading(**finest, coarsest=self.widest(body))
+
     def widest(self, body: Body) -> float:
         """Return the largest distance of nodes in a contact with a body, in its unit of length."""
         if isinstance(body, Layer) and body.base.foundation < _INCOMPRESSIBLE:
@@ -161,18 +157,39 @@ class Settings:
 
     def coarser(self, factor: float) -> Settings:
         """Return the settings whose errors, being of second order, are larger by this factor."""
-        s = float(np.sqrt(factor))
+        return replace(
+            self._scaled(float(np.sqrt(factor))),
+            accuracy=self.accuracy * factor,
+            mode_tolerance=self.mode_tolerance * factor,
+        )
+
+    def _scaled(self, s: float) -> Settings:
+        """Return the settings with steps and growths longer by a factor."""
         return replace(
             self,
-            accuracy=self.accuracy * factor,
             nodes_per_zone=max(self.nodes_per_zone / np.sqrt(s), _FEWEST_NODES),
             growth_inside=self.growth_inside * s,
             growth_outside=self.growth_outside * s,
             reach=self.reach / s,
-            step_error=self.step_error * factor,
+            step_error=self.step_error * s * s,
             force_change=self.force_change * s,
             travel=self.travel * s,
             first_travel=self.first_travel * s,
-            imbalance=self.imbalance * factor,
-            mode_tolerance=self.mode_tolerance * factor,
+            imbalance=self.imbalance * s * s,
         )
+
+
+_DEFAULT = Settings(
+    accuracy=DEFAULT_ACCURACY,
+    nodes_per_zone=4.8,
+    fine_zones=5,
+    growth_inside=0.065,
+    growth_outside=0.08,
+    reach=100,
+    step_error=1.5e-3,
+    force_change=0.05,
+    travel=0.05,
+    first_travel=2e-4,
+    imbalance=3e-5,
+    mode_tolerance=0.05 * DEFAULT_ACCURACY,
+)

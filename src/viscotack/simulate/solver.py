@@ -23,7 +23,6 @@ from viscotack.model.geometry import (
 from viscotack.model.materials import Material, Modes
 from viscotack.model.problem import Case, Groups
 from viscotack.model.problem.revolution import SIMULATED_TABOR
-from viscotack.model.protocol import AtDepth
 from viscotack.model.traction import effective_range, has_rest
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
@@ -39,10 +38,10 @@ from viscotack.simulate.estimate import COARSER, estimated
 from viscotack.simulate.history import History, Snapshot
 from viscotack.simulate.interface import resolved
 from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
-from viscotack.simulate.machine import Leg, spring_energy
+from viscotack.simulate.machine import Leg
 from viscotack.simulate.march import march
 from viscotack.simulate.mesh import Grading
-from viscotack.simulate.preload import Beginning, shallower
+from viscotack.simulate.preload import shallower
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.verdict import judged, out_of_time, status_of
 
@@ -74,13 +73,13 @@ def simulate(
     groups: Groups,
     *,
     settings: Settings,
-    until: str,
-    estimate_error: bool,
-    whole: bool,
-    fields: bool,
-    throw: bool,
-    progress: Progress,
-    watch: Watch,
+    until: str = "pull-off",
+    estimate_error: bool = False,
+    whole: bool = False,
+    fields: bool = False,
+    throw: bool = False,
+    progress: Progress = None,
+    watch: Watch = None,
 ) -> Result:
     """Simulate a problem, also given by its dimensionless groups, for any range of adhesion.
 
@@ -90,7 +89,7 @@ def simulate(
     began = perf_counter()
     share = _MAIN if estimate_error else 1.0
     contact = contact_of(groups)
-    check_bounds(problem, groups, contact)
+    check_bounds(groups, contact)
 
     def light(marched: Groups, seen: Progress = None, *, whole: bool = False) -> Result:
         # after moves the force may have a minimum before pull-off: end both runs at the same event
@@ -99,8 +98,8 @@ def simulate(
         return _run(problem, marched, coarser, end, False, seen)
 
     try:
-        beginning = None if whole else _beginning(groups, contact, settings, light)
-        marched = groups if beginning is None else _from(groups, beginning.start.depth)
+        beginning = None if whole else shallower(groups, contact, settings, light)
+        marched = groups if beginning is None else beginning.light.groups
         own = part_of(progress, 0.0, share)
         result = _run(problem, marched, settings, until, fields, own, watch)
     except TimeUp as limit:
@@ -276,58 +275,34 @@ def _result(
     modes: Modes,
     fields: bool,
 ) -> Result:
-    states, books = history.snapshots, history.books
-    force = np.array([s.force for s in states])
-    spring = spring_energy(force, groups.stiffness)
-    time = np.array([s.time for s in states])
-    edge = np.array([s.edge for s in states])
-    heat = np.array([b.heat for b in books])
+    time, edge = history.seen("time"), history.seen("edge")
     residual = float(np.max(np.abs(history.imbalances())))
+    parts: dict[str, Any] = {}
+    if not np.isinf(detail(groups.geometry)):  # the contact may have several edges
+        parts["inner_radius"] = history.seen("hole") / contact.edge_unit
+        parts["rings"] = history.seen("rings")
     return Result(
         problem=problem,
         time=time,
-        depth=np.array([s.depth for s in states]),
-        force=force,
+        depth=history.seen("depth"),
+        force=history.seen("force"),
         contact_radius=edge / contact.edge_unit,
         edge_speed=receding_speed(time, edge),
         status=status_of(history, residual, contact.law),
         events=tuple(history.events),
-        statistics={
-            "steps": len(states) - 1,
-            "newton_iterations": history.iterations,
-            "rejected_steps": history.rejected,
-            "meshes": history.meshes,
-            "nodes": history.nodes,
-            "modes": len(modes.weights),
-        },
+        statistics=history.statistics
+        | {"meshes": history.meshes, "nodes": history.nodes, "modes": len(modes.weights)},
         energy=Energies(
-            drive=np.array([b.work for b in books]) + (spring - spring[0]),
-            elastic=np.array([s.elastic for s in states]),
-            interface=np.array([s.interface for s in states]),
-            spring=spring,
-            heat=heat.sum(axis=1),
-            jumps=np.array([b.jumps for b in books]),
-            transfer=np.array([b.transfer for b in books]),
-            interface_heat=np.array([b.interface for b in books]),
+            **history.energies(),
             mode_time=np.array(modes.times),
-            mode_heat=heat[-1],
+            mode_heat=history.books[-1].heat,
             mode_weight=np.array(modes.weights),
         ),
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
-        **_parts_of_contact(groups, contact, states),
+        **parts,
     )
-
-
-def _parts_of_contact(groups: Groups, contact: Contact, states: list[Snapshot]) -> dict[str, Any]:
-    """Return inner edge and number of rings for shapes whose contact may have several edges."""
-    if np.isinf(detail(groups.geometry)):
-        return {}
-    return {
-        "inner_radius": np.array([s.hole for s in states]) / contact.edge_unit,
-        "rings": np.array([s.rings for s in states]),
-    }
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
@@ -343,18 +318,3 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
         "gap": np.array([padded(p.gap) for p in history.profiles]),
         "pressure": np.array([padded(p.pressure) for p in history.profiles]),
     }
-
-
-def _beginning(
-    groups: Groups,
-    contact: Contact,
-    settings: Settings,
-    light: Callable[[Groups], Result],
-) -> Beginning | None:
-    """Return a shallower equivalent start, or None if the given start is not too deep."""
-    return shallower(groups, contact, settings, lambda depth: light(_from(groups, depth)))
-
-
-def _from(groups: Groups, depth: float) -> Groups:
-    """Return the same test, started from a relaxed contact at this depth [h0]."""
-    return replace(groups, start=AtDepth(depth))

@@ -14,10 +14,11 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY,
 from viscotack.model.protocol import AtDepth, AtForce
 from viscotack.result import Outcome, Result
 from viscotack.simulate import handover
-from viscotack.simulate.crack_contact.crack_problem import largest_radius, not_covered
+from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
 from viscotack.simulate.sensitivities import changed_inputs, sensitivities_of
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import Progress, Watch, begun, contact_of, part_of, simulate
+from viscotack.theory.crack.contact import profile_of
 from viscotack.threads import one_blas_thread
 
 _UNTIL = ("pull-off", "detached")
@@ -152,7 +153,7 @@ def solve(
                     "derivatives exist for simulations only, and the range-corrected Tabor number "
                     f"of {groups.effective_tabor:.4g} is too large to simulate"
                 )
-            return _handed_over(problem, chosen.accuracy, began)
+            return handover.answered(problem, chosen.accuracy)
         wanted = None if isinstance(sensitivities, bool) else sensitivities
         changes = {} if sensitivities is False else changed_inputs(problem, wanted)
         share = 1 / (1 + 2 * len(changes))
@@ -172,18 +173,7 @@ def solve(
             return result
 
         def run(changed: Case, level: Settings) -> Result:
-            return simulate(
-                changed,
-                changed.groups(),
-                settings=level,
-                until="pull-off",
-                estimate_error=False,
-                whole=whole,
-                fields=False,
-                throw=False,
-                progress=None,
-                watch=None,
-            )
+            return simulate(changed, changed.groups(), settings=level, whole=whole)
 
         found = sensitivities_of(
             problem, changes, chosen, run, lambda n: progress and progress((1 + 2 * n) * share)
@@ -209,8 +199,9 @@ def has_start(problem: Case) -> bool:
         try:
             groups = problem.groups()
             if handover.too_short(groups):
-                return handover.has_start(groups)
-            begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
+                start_of(groups, profile_of(groups.geometry))
+            else:
+                begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
         except InputError:
             return False
     return True
@@ -224,13 +215,6 @@ def _too_short(groups: Groups, settings: Settings) -> bool:
         return False
     spacing = contact_of(groups).grading(settings, 0.0).spacing
     try:
-        return spacing < _DIGITS * largest_radius(groups)
+        return spacing < _DIGITS * start_of(groups, profile_of(groups.geometry))[1]
     except InputError:  # no such contact by JKR, whose range of contacts is a little smaller
         return False
-
-
-def _handed_over(problem: Problem | Groups, accuracy: float, began: float) -> Result:
-    """Solve a problem with the steady-crack contact model."""
-    result = handover.answered(problem)
-    cost = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
-    return replace(result, accuracy=accuracy, statistics=cost)

@@ -262,3 +262,30 @@ def _smoothed(rows: npt.NDArray, moved: npt.NDArray, area: npt.NDArray) -> npt.N
     smooth[:-1] -= flux / area[:-1, None]
     smooth[1:] += flux / area[1:, None]
     return smooth
+
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(40)
+_NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
+
+
+def flank_share(law: Traction, gap: float, exponent: float) -> float:
+    r"""Return the force on a flank that rises like r^q, over that of a sphere (Derjaguin).
+
+    For a sphere the area between two gaps does not depend on the distance. The force on its flank
+    is the energy of the law at the gap g of the last node [h0], times a constant. For a tip that
+    rises like :math:`r^q`, this area grows like :math:`w = (h/g)^p` with :math:`p = (2-q)/q`, and
+    the force is multiplied by
+
+    .. math:: \frac{\int_g^\infty w\,\sigma\,dh}{-\varphi(g)}
+              = 1 + \int_g^\infty w' \frac{\varphi(h)}{\varphi(g)}\,dh
+              = 1 + p \int_0^1 x^{-1-p}\, \frac{\varphi(g/x)}{\varphi(g)}\,dx .
+
+    For a tension that falls like :math:`h^{-3}` this is :math:`q/(\frac32 q - 1)`. For a law that
+    vanishes before the last node it is 1.
+    """
+    at_node = float(law.energy(gap))
+    if at_node == 0:
+        return 1.0
+    p = (2 - exponent) / exponent
+    fading = law.energy(gap / _NODES) / at_node
+    return 1 + p * float(_WEIGHTS @ (_NODES ** (-1 - p) * fading))

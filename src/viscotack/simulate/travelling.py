@@ -11,7 +11,6 @@ If the edge is at rest, no equilibrium is found or a branch ends, the solver use
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import prod
 
 import numpy as np
@@ -29,12 +28,11 @@ from viscotack.simulate.frame import (
     farthest,
     widths,
 )
-from viscotack.simulate.gap_limits import least_gap, room
+from viscotack.simulate.interface import least_gap, room
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.memory import Memory, step
 from viscotack.simulate.mesh import Mesh
-from viscotack.simulate.remesh import around_edge, lost, opening
-from viscotack.simulate.state import MarchState, Run
+from viscotack.simulate.state import MarchState, Run, around_edge, lost, opening
 from viscotack.simulate.steps import Attempt, changed, entered
 from viscotack.simulate.surface import Surface
 
@@ -94,7 +92,10 @@ def ahead(run: Run, at: MarchState) -> Ahead | None:
     trail, edge = at.state.trail, at.seen.edge
     if run.body.growing is not None:  # speeds and ages of bonds are defined at fixed points
         return None
-    if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
+    if len(trail) < 3 or not edge > 0:
+        return None
+    time = np.array([passed.seen.time for passed in trail])
+    if not min(np.diff(time).min(), at.dt) > _TICK * time[-1]:  # equal instants
         return None
     if at.mesh.inner:  # several edges would need several frames
         return None
@@ -114,13 +115,6 @@ def ahead(run: Run, at: MarchState) -> Ahead | None:
     last, now = trail[-2].seen, trail[-1].seen
     before = now.time - last.time
     return Ahead(dt, travel, (now.edge - last.edge) / before, before, zone)
-
-
-def _told_apart(trail: tuple[Passed, ...], dt: float) -> bool:
-    """Return whether the last instants and the next one are distinct in floating point."""
-    time = [passed.seen.time for passed in trail]
-    shortest = min(later - earlier for earlier, later in pairwise(time))
-    return min(shortest, dt) > _TICK * time[-1]
 
 
 def _expected(trail: tuple[Passed, ...], dt: float) -> float:
@@ -151,7 +145,8 @@ def travelled(run: Run, at: MarchState, goal: Ahead) -> Attempt | None:
     if way is None or found is None or passage is None:
         return None
     after, bend = _after(run, at, nodes, way, found, passage)
-    work, heat = _work(at.leg, after, at.dt), _heat(after, at.dt)
+    work = _work(at.leg, after, at.dt)
+    heat = _integral(after.trail, np.array([p.heat for p in after.trail]), at.dt)
     strain = _strain(run, at, goal, nodes.mesh, way, after, bend)
     moved = nodes.mesh is not at.mesh
     allowed = (_MOVED if run.body.weights.size else np.inf) if moved else None
@@ -323,12 +318,6 @@ def _work(leg: Leg, after: State, dt: float) -> float:
     # the drive is linear in time; subtract the change of spring energy from its work
     k = leg.stiffness
     return (travel + more / k) / dt * force - more * (now.force + last.force) / (2 * k)
-
-
-def _heat(after: State, dt: float) -> npt.NDArray:
-    """Return the heat of each mode over the last step."""
-    passed = after.trail
-    return _integral(passed, np.array([p.heat for p in passed]), dt)
 
 
 def _integral(passed: tuple[Passed, ...], values: npt.NDArray, dt: float) -> npt.NDArray:

@@ -22,21 +22,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf, log
-from typing import Any
-
-import numpy as np
 
 from viscotack.clock import TimeUp
-from viscotack.model.materials import Modes
-from viscotack.simulate.body import Body
-from viscotack.simulate.contacts.contact import Contact, Relaxed
-from viscotack.simulate.gap_limits import separated
-from viscotack.simulate.history import SMALLEST_ENERGY, History, Snapshot
+from viscotack.simulate.history import History, Snapshot
+from viscotack.simulate.interface import separated
 from viscotack.simulate.jumps import followed
 from viscotack.simulate.machine import Leg
-from viscotack.simulate.march import first_place, narrowed
+from viscotack.simulate.march import Part, Units, begun_run, narrowed
 from viscotack.simulate.memory import step
-from viscotack.simulate.mesh import Grading
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.state import MarchState, Run
 from viscotack.simulate.steps import (
@@ -71,28 +64,6 @@ _LAST = 5
 _TOGETHER = 1e-3
 # Most steps of a run.
 _MOST_STEPS = 50_000
-
-
-# not the Scales of the theory: it shares nothing with the simulation, so that each judges the other
-@dataclass(frozen=True)
-class Units:
-    """SI values of the units of a contact: depth [m], force [N], time [s]."""
-
-    depth: float
-    force: float
-    time: float
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """One of the two contacts with its relaxed start, in its own units."""
-
-    contact: Contact
-    start: Relaxed
-    modes: Modes
-    grading: Grading
-    units: Units
-    growing: Any = None
 
 
 @dataclass(eq=False)
@@ -343,21 +314,6 @@ class _Pair:
         )
         drive, most = self.drive - self.speed * dt, max(self.largest_tension, -first.force)
         return replace(self, first=first, second=second, drive=drive, largest_tension=most)
-
-
-def begun_run(
-    part: Part, leg: Leg, settings: Settings, stiffness: float | None = None
-) -> tuple[Run, MarchState]:
-    """Return a run of one leg from the relaxed start, and its first place, which is kept.
-
-    `stiffness` is that of the spring of the machine [output force/h0], None without one.
-    """
-    body = Body(part.contact, part.modes, np.asarray(part.modes.weights), part.growing)
-    history = History(SMALLEST_ENERGY * part.contact.span, stiffness)
-    run = Run(body, settings, (leg,), False, history)
-    at = first_place(run, part.start, part.grading)
-    run.keep(at)
-    return run, at
 
 
 def begun_side(part: Part, settings: Settings, speed: float) -> Side:

@@ -13,7 +13,7 @@ from viscotack.model.protocol import Apart
 from viscotack.model.traction import Traction, has_rest
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import pull_off_force
-from viscotack.simulate.closed_gap import why
+from viscotack.simulate.equilibrium import why
 from viscotack.simulate.history import History
 
 # Relative energy imbalance above which a run is rejected; good runs stay below 1e-3.

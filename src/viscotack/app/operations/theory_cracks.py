@@ -95,8 +95,8 @@ class _OfTheory(Reduced):
         return v, {"amplification": np.asarray(law.amplification(v, material=solid))}
 
     def _of_table(self, caller: Caller) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        from viscotack.lab.reading import read_dma
         from viscotack.theory import tabulated_modulus
-        from viscotack.theory.crack.modulus_file import read_modulus
 
         if given := self.given:
             raise InputError(f"`modulus_table` states the solid; leave out {quoted(given)}")
@@ -112,8 +112,15 @@ class _OfTheory(Reduced):
                 tabulated_modulus.greenwood_speed_range,
             ),
         }[self.word]
-        modulus = read_modulus(
-            caller.file(self.modulus_table), rubbery_modulus=self.rubbery_modulus
+        table = read_dma(caller.file(self.modulus_table), kind="E")
+        if len(table.ids) > 1:
+            raise InputError(
+                "`modulus_table` has several sweeps; give one master curve (fit material makes one)"
+            )
+        curve = table.at(min(table.ids))
+        modulus = tabulated_modulus.TabulatedModulus(
+            self.rubbery_modulus,
+            *(tuple(x.tolist()) for x in (curve.angular_frequency, curve.storage, curve.loss)),
         )
         # not the ends themselves, which round-off may put outside
         low, high = speed_range(modulus=modulus)

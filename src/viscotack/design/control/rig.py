@@ -13,8 +13,8 @@ from viscotack.design.window.simulated import part_of, posed_contact
 from viscotack.errors import InputError
 from viscotack.model.problem import Problem, Scales
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.simulate.march import SteppedSimulation
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.stepwise import SteppedSimulation
 from viscotack.threads import one_blas_thread
 
 from .release import Release

@@ -27,9 +27,10 @@ from viscotack.simulate.bounds import check_bounds
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.history import History
 from viscotack.simulate.machine import Leg
+from viscotack.simulate.march import Part, Units
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import contact_of, discretised, modes_of_run, relaxed_start
-from viscotack.simulate.two_contacts import Part, SeriesHistory, Units, march_in_series
+from viscotack.simulate.two_contacts import SeriesHistory, march_in_series
 from viscotack.threads import one_blas_thread
 
 _STATUS = {
@@ -165,7 +166,7 @@ def posed_contact(problem: Problem, settings: Settings) -> PosedContact:
             f"{groups.effective_tabor:.4g}, too large to simulate"
         )
     contact = contact_of(groups)
-    check_bounds(problem, groups, contact)
+    check_bounds(groups, contact)
     start = relaxed_start(groups, contact, settings)
     return PosedContact(groups, contact, start, Units(si.length, si.force, si.time), si.radius)
 

@@ -7,8 +7,7 @@ whole disc until a crack from the edge detaches it in one jump: JKR has no stabl
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +16,6 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Disc, Layer
 from viscotack.model.protocol import Apart, AtForce, AtRadius, Start
 from viscotack.simulate.contacts.contact import Relaxed
-from viscotack.simulate.contacts.ended import EndedGrading
 from viscotack.simulate.contacts.shape import ShapeContact
 from viscotack.simulate.mesh import Grading
 from viscotack.simulate.settings import Settings
@@ -100,13 +98,7 @@ class DiscContact(ShapeContact):
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes, which end with the disc."""
-        size = self.shape.radius
-        crack = settings.grading(self.zone, self.law, size)
-        spacing = min(crack.spacing, size / 8)
-        scar = min(crack.scar_half_width, size)
-        finest: dict[str, Any] = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
-        finest |= {"scar_half_width": scar}
-        return EndedGrading(**finest, coarsest=settings.widest(self.body))
+        return settings.grading_to_end(self.zone, self.law, self.shape.radius, self.body)
 
     def _jkr_depth(self, start: AtForce) -> float:
         return self.deepest(start)

@@ -9,7 +9,7 @@ Cracks start at the ends of the punch, so the nodes are finest there and follow 
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -20,11 +20,9 @@ from viscotack.model.geometry import Body, Layer
 from viscotack.model.geometry.hats import hat_areas, panel_areas
 from viscotack.model.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.closed_gap import check_open
 from viscotack.simulate.contacts.contact import Relaxed
-from viscotack.simulate.contacts.ended import EndedGrading
 from viscotack.simulate.contacts.search import depth_where
-from viscotack.simulate.equilibrium import descend
+from viscotack.simulate.equilibrium import check_open, descend
 from viscotack.simulate.interface import interface
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.mesh import Grading
@@ -95,13 +93,7 @@ class PunchContact:
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes; the depth does not matter to it."""
-        crack = settings.grading(self.zone, self.law, self.size)
-        # Nodes lie on a lattice that begins at the end of the punch.
-        spacing = min(crack.spacing, self.size / 8)
-        scar = min(crack.scar_half_width, self.size)  # none of it lies beyond the middle
-        finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
-        finest |= {"scar_half_width": scar}
-        return EndedGrading(**finest, coarsest=settings.widest(self.body))
+        return settings.grading_to_end(self.zone, self.law, self.size, self.body)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start, the whole punch in contact.

@@ -28,17 +28,14 @@ from viscotack.model.geometry import Body, HalfSpace, Sphere
 from viscotack.model.geometry.hats import hat_areas, panel_areas
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.closed_gap import check_open
 from viscotack.simulate.contacts.contact import Relaxed
 from viscotack.simulate.contacts.search import depth_where
-from viscotack.simulate.equilibrium import descend
-from viscotack.simulate.flank import flank_share
-from viscotack.simulate.gap_limits import least_gap
-from viscotack.simulate.interface import interface
+from viscotack.simulate.equilibrium import check_open, descend
+from viscotack.simulate.interface import interface, least_gap
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.mesh import Grading
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.surface import Surface, relaxed_stiffness
+from viscotack.simulate.surface import Surface, flank_share, relaxed_stiffness
 from viscotack.theory.elastic import indenter
 
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.

@@ -12,7 +12,7 @@ from numpy import inf
 from scipy.optimize import brentq
 
 from viscotack.errors import InputError
-from viscotack.simulate.closed_gap import ClosedGap
+from viscotack.simulate.equilibrium import ClosedGap
 
 # First step away from a guess, and growth factor of the following steps.
 _FIRST_STEP, _LONGER = 0.05, 1.6

@@ -185,7 +185,8 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     crack, profile = SteadyCrack(groups.material, law), profile_of(groups.geometry)
     start, largest = start_of(groups, profile)
     series: dict[str, Any]
-    if start > 0 and groups.stiffness is None and groups.rate is not None and _rests(groups):
+    rests = all(isinstance(move, Dwell) for move in groups.moves)
+    if start > 0 and groups.stiffness is None and groups.rate is not None and rests:
         found = recede(
             crack,
             profile,
@@ -299,11 +300,6 @@ def _check_tabor(groups: Groups) -> None:
             f"the range-corrected Tabor number is {groups.effective_tabor:.4g}; the steady-crack "
             f"contact model is valid up to {LARGEST_TABOR:g}"
         )
-
-
-def _rests(groups: Groups) -> bool:
-    """Whether the contact starts relaxed and only rests before the retraction."""
-    return all(isinstance(move, Dwell) for move in groups.moves)
 
 
 def _receded(groups: Groups, crack: SteadyCrack, found: Curves, case: int) -> dict[str, Any]:

@@ -28,7 +28,6 @@ from viscotack.theory import lennard_jones
 from viscotack.theory.crack.contact import (
     Drive,
     Profile,
-    profile_of,
     radius_at_depth,
     radius_at_force,
 )
@@ -71,11 +70,6 @@ def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
     if isinstance(groups.start, Apart):
         return 0.0, max([1.0, *radii])
     return radii[0], max(1.0, *radii) if len(radii) > 1 else radii[0]
-
-
-def largest_radius(groups: Groups) -> float:
-    """Approximate radius of the largest relaxed state of a history [beta]."""
-    return start_of(groups, profile_of(groups.geometry))[1]
 
 
 def _all_states(groups: Groups) -> list[Any]:

@@ -37,8 +37,8 @@ from viscotack.clock import look
 from viscotack.model.traction import Traction, effective_range
 from viscotack.model.traction.law import energy_and_traction
 from viscotack.simulate.equilibrium import GONE
-from viscotack.simulate.gap_limits import least_gap, released, room
 from viscotack.simulate.grid.plane import Plane
+from viscotack.simulate.interface import least_gap, released, room
 from viscotack.simulate.machine import Hold
 
 # Residual of conjugate gradients relative to that of Newton's method, and their largest number.

@@ -29,7 +29,6 @@ from viscotack.simulate.grid.plane import Device, Plane, memory
 from viscotack.simulate.grid.recorded import Frame, GridRun
 from viscotack.simulate.grid.run import march_on_grid, relaxed
 from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
-from viscotack.simulate.machine import spring_energy
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import modes_of_run
 from viscotack.simulate.verdict import status_of
@@ -154,11 +153,11 @@ def pull(
         except ArithmeticError as reason:
             raise InputError(f"the relaxed start was not found: {reason}") from None
         run = _run(problem, contact, start, settings, maps, kept, "main", part(0.0, share))
-        result = _result(problem, run, settings, warnings)
+        result = _result(problem, run, warnings)
         if estimate_error and result.outcome is not Outcome.STOPPED:
             coarser = settings.coarser(COARSER)
             light = _run(problem, contact, start, coarser, 0, kept, "light", part(share, 1.0))
-            coarse = _result(problem, light, settings, ())
+            coarse = _result(problem, light, ())
             if coarse.outcome is not Outcome.STOPPED:
                 result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
@@ -247,18 +246,13 @@ class _Start(NamedTuple):
     force: float
 
 
-def _result(
-    problem: RoughProblem, run: GridRun, settings: Settings, warnings: tuple[str, ...]
-) -> RoughResult:
+def _result(problem: RoughProblem, run: GridRun, warnings: tuple[str, ...]) -> RoughResult:
     """Return the result of a run in SI."""
-    history, contact = run.history, problem.contact
-    law = problem.traction
+    history, law, pixel = run.history, problem.traction, problem.surface.pixel
     h0, force_unit, time = law.equilibrium_gap, problem.force, problem.time
     energy = force_unit * h0
-    seen, books = history.snapshots, history.books
-    force = np.array([s.force for s in seen])
-    stiffness = problem.units.scaled(problem.protocol).stiffness
-    spring, depth = spring_energy(force, stiffness), np.array([s.depth for s in seen])
+    force, depth = history.seen("force"), history.seen("depth")
+    energies = {name: energy * series for name, series in history.energies().items()}
     residual = float(np.max(np.abs(history.imbalances())))
     touching = np.array(run.touching)
     legs = np.array(history.legs)
@@ -274,19 +268,19 @@ def _result(
         )
 
     return RoughResult(
-        time=time * np.array([s.time for s in seen]),
+        time=time * history.seen("time"),
         depth=h0 * depth,
-        drive=h0 * (depth if stiffness is None else depth + force / stiffness),
+        drive=h0 * (depth if history.stiffness is None else depth + force / history.stiffness),
         force=force_unit * force,
-        area=touching[:, 0] * problem.surface.pixel**2,
+        area=touching[:, 0] * pixel**2,
         patches=touching[:, 1],
-        work=energy * (np.array([b.work for b in books]) + spring - spring[0]),
-        elastic=energy * np.array([s.elastic for s in seen]),
-        interface=energy * np.array([s.interface for s in seen]),
-        heat=energy * np.array([b.heat.sum() for b in books]),
-        jumps=energy * np.array([b.jumps for b in books]),
+        work=energies["drive"],
+        elastic=energies["elastic"],
+        interface=energies["interface"],
+        heat=energies["heat"],
+        jumps=energies["jumps"],
         last_leg=last,
-        status=status_of(history, residual, contact.law),
+        status=status_of(history, residual, problem.contact.law),
         events=tuple(
             Event(e.kind, e.time * time, e.depth * h0, e.force * force_unit, e.energy * energy)
             for e in history.events
@@ -294,16 +288,11 @@ def _result(
         energy_residual=residual,
         strongest=shown(run.frames.strongest[0]),
         nominal_area=problem.surface.area,
-        pixel=problem.surface.pixel,
+        pixel=pixel,
         warnings=warnings,
         maps=tuple(shown(frame) for frame in run.frames.kept),
-        statistics={
-            "steps": len(seen) - 1,
-            "newton_iterations": history.iterations,
-            "rejected_steps": history.rejected,
-            "pixels": problem.surface.heights.size,
-            "modes": len(run.body.weights),
-        },
+        statistics=history.statistics
+        | {"pixels": problem.surface.heights.size, "modes": len(run.body.weights)},
     )
 
 

@@ -39,7 +39,7 @@ from viscotack.model.protocol import Apart, Approach, AtDepth, Retraction
 from viscotack.model.surfaces import Asperities, summits
 from viscotack.model.traction import has_rest
 from viscotack.simulate import solve
-from viscotack.simulate.curve_family import Family, Pull, pad_curve
+from viscotack.simulate.curve_family import Family, Pull, nodes_between, pad_curve
 from viscotack.simulate.force_curve import Curve, side_by_side
 from viscotack.simulate.solver import SimulationError
 from viscotack.theory.elastic import jkr
@@ -210,7 +210,7 @@ def superposed(
     rubber: Any = problem.material
     still = Elastic(rubbery_modulus=rubber.rubbery_modulus, poisson_ratio=rubber.poisson_ratio)
     speed, tell = float(problem.protocol.speed or 0.0), progress or (lambda share: None)
-    nodes = _nodes(found.radii)
+    nodes = nodes_between(float(found.radii.min()), float(found.radii.max()), _RATIO, _MOST)
     guess = _position(problem, found, below)
     elastic = rubber.modulus_ratio == 1
     many = nodes.size * (1 if elastic else 1 + _STARTS)
@@ -294,15 +294,6 @@ def _check(problem: RoughProblem) -> None:
         )
     if has_rest(problem.traction):
         raise InputError("an interface that grows or ages is not computed on rough surfaces")
-
-
-def _nodes(radii: npt.NDArray) -> npt.NDArray:
-    """Return the radii between which curves are interpolated."""
-    low, high = float(radii.min()), float(radii.max())
-    if high <= low * (1 + 1e-6):
-        return np.array([low])
-    count = int(np.ceil(np.log(high / low) / np.log(_RATIO))) + 1
-    return np.geomspace(low, high, min(max(count, 2), _MOST))
 
 
 def _pull(
@@ -440,7 +431,7 @@ class _Away:
         below = (self.z - self.depth[self.touching])[which]
         round_ = (1 + (below + distance**2 / (2 * radii[which])) / h0).min(axis=1)
         strongest = law.edge_gap
-        unit = surface.pixel**2 * _pressure(problem)
+        unit = surface.pixel**2 * (problem.traction.work_of_adhesion / h0)
 
         def tension(gap: npt.NDArray) -> float:
             return float(np.sum(law.traction(np.maximum(gap, strongest))))
@@ -448,11 +439,6 @@ class _Away:
         return np.array(
             [unit * (tension(round_ - z / h0) - tension(own - z / h0)) for z in position]
         )
-
-
-def _pressure(problem: RoughProblem) -> float:
-    """Return the unit of tractions, dg/h0 [Pa]."""
-    return problem.traction.work_of_adhesion / problem.traction.equilibrium_gap
 
 
 def _share(problem: RoughProblem, depth: npt.NDArray, radii: npt.NDArray) -> float:

@@ -1,9 +1,9 @@
-r"""Empirical laws of adhesion: Gent-Schultz, process-zone loss, WLF shift.
+r"""Empirical laws of adhesion: Gent-Schultz, WLF shift.
 
 They describe a material in a measured range of speed and temperature and must not be extrapolated.
 Speeds are those of the crack [m/s].
 
-Source: Maghami, PhD thesis (2025), Eq. 2.19, 4.25, 4.28 and Fig. 4.10b, published as
+Source: Maghami, PhD thesis (2025), Eq. 2.19, 4.25 and 4.28, published as
 doi:10.1016/j.jmps.2024.105844; Gent & Schultz (1972), J. Adhesion 3, 281 (no DOI known to this
 package); Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
 """
@@ -17,8 +17,6 @@ from viscotack.model.materials.shift import UNIVERSAL, wlf_decades
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 _OPENS = "a crack that closes is another problem"
-# Fig. 4.10b, a silicone on a glass lens
-ZONE_SPEED, ZONE_EXPONENT = 1e-2, 0.5
 
 
 def gent_schultz(speed: Values, *, reference_speed: Values, exponent: Values) -> Number:
@@ -48,98 +46,6 @@ def gent_schultz(speed: Values, *, reference_speed: Values, exponent: Values) ->
     v0, xi = positive(reference_speed=reference_speed, exponent=exponent)
     v = at_least(0, _OPENS, speed=speed)
     return plain(1 + (v / v0) ** xi)
-
-
-def gent_schultz_speed(
-    amplification: Values, *, reference_speed: Values, exponent: Values
-) -> Number:
-    r"""Return the crack speed [m/s] of an amplification, the inverse of :func:`gent_schultz`.
-
-    Parameters
-    ----------
-    amplification : array_like
-        Effective over intrinsic surface energy, at least 1.
-    reference_speed, exponent : array_like
-        :math:`v_0` [m/s] and :math:`\xi`; positive.
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range or not finite.
-
-    Examples
-    --------
-    >>> f"{gent_schultz_speed(2.0, reference_speed=213.5e-6, exponent=0.4154) * 1e6:.1f} um/s"
-    '213.5 um/s'
-    """
-    v0, xi = positive(reference_speed=reference_speed, exponent=exponent)
-    gamma = at_least(
-        1, "the energy of a crack at rest is the work of adhesion", amplification=amplification
-    )
-    return plain(v0 * (gamma - 1) ** (1 / xi))
-
-
-def gent_schultz_reference_speed(*, coefficient: Values, shift: Values, exponent: Values) -> Number:
-    r"""Return the reference speed [m/s] from Gent and Schultz's own constants.
-
-    .. math:: v_{ref} = k_{GS}^{-1/n} / a_{GS}, \quad
-              \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = 1 + k_{GS} (a_{GS} v)^n
-
-    (the thesis prints :math:`(k_{GS} a_{GS}^n)^{-1}`, which lacks the root).
-
-    Parameters
-    ----------
-    coefficient : float
-        :math:`k_{GS}` [(s/m)^n], positive.
-    shift : float
-        :math:`a_{GS}`, shift factor of temperature, see :func:`wlf_shift`; positive.
-    exponent : float
-        n, positive.
-
-    Raises
-    ------
-    InputError
-        If a value is not positive and finite.
-
-    Examples
-    --------
-    >>> v = gent_schultz_reference_speed(coefficient=33.5, shift=1.0, exponent=0.4154)
-    >>> f"{v * 1e6:.1f} um/s"
-    '213.2 um/s'
-    """
-    c, a, n = positive(coefficient=coefficient, shift=shift, exponent=exponent)
-    return plain(c ** (-1 / n) / a)
-
-
-def process_zone_correction(
-    speed: Values, *, reference_speed: Values = ZONE_SPEED, exponent: Values = ZONE_EXPONENT
-) -> Number:
-    r"""Return measured over linear-theory surface energy at a crack speed [m/s] (Fig. 4.10b).
-
-    .. math:: 1 + (v/v_1)^{1/2}, \quad v_1 = 10^4 \, \mathrm{um/s}
-
-    It multiplies the amplification of the bulk. The default values of v1 and of the power are the
-    fit to one silicone (10:1, against glass, crack speeds from some um/s to 1e4 um/s); other
-    interfaces need their own values.
-
-    Parameters
-    ----------
-    speed : array_like
-        Crack speed v [m/s], not negative.
-    reference_speed, exponent : array_like
-        v1 [m/s] and the power; positive.
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range or not finite.
-
-    Examples
-    --------
-    >>> f"{process_zone_correction(1e-4):.2f}"
-    '1.10'
-    """
-    return gent_schultz(speed, reference_speed=reference_speed, exponent=exponent)
 
 
 def wlf_shift(temperature: Values, *, glass_transition: Values) -> Number:

@@ -143,42 +143,15 @@ def contact_radius_at_depth(
     """
     length, height, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
     d = at_least(-0.75 * height, _NO_DEPTH, depth=depth) / height
-    larger, _ = _roots_at_depth(d)
+    # the larger root s = sqrt(a) of s^4 - sqrt(2) s - d = 0 by Ferrari, with the positive root m of
+    # the resolvent m^3 + d m - 1/4 = 0; beyond `far` it grows with d^(1/4), to round-off
+    far = np.maximum(d, _FAR) / _FAR
+    d = np.minimum(d, _FAR)
+    C = np.cbrt(1 / 8 + np.sqrt(np.maximum(1 / 64 + d**3 / 27, 0)))
+    t = np.sqrt(2 / (4 * (C**2 + d / 3 + (d / (3 * C)) ** 2)))
+    # at d = -3/4 round-off may cause a small negative number under the root
+    larger = far**0.25 * (t + np.sqrt(np.maximum(2 * np.sqrt(2) / t - t**2, 0))) / 2
     return plain(length * larger**2)
-
-
-def unstable_contact_radius_at_depth(
-    depth: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
-) -> Number:
-    r"""Return the smaller contact radius [m] in unstable equilibrium at a depth [m].
-
-    Parameters
-    ----------
-    depth : array_like
-        Depth [m], from that of :func:`jkr.instability` to 0, where the radius vanishes.
-    radius, contact_modulus, work_of_adhesion : array_like
-        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range or not finite.
-
-    Examples
-    --------
-    >>> case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
-    >>> f"{unstable_contact_radius_at_depth(-1e-6, **case) * 1e6:.2f} um"
-    '3.25 um'
-    """
-    length, height, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
-    d = at_least(-0.75 * height, _NO_DEPTH, depth=depth) / height
-    if np.any(d > 0):
-        raise InputError(
-            f"depth must not be positive on the unstable branch, got {np.max(depth)} m; "
-            "use contact_radius_at_depth"
-        )
-    _, smaller = _roots_at_depth(d)
-    return plain(length * smaller**2)
 
 
 def contact_radius_at_force(
@@ -209,43 +182,6 @@ def contact_radius_at_force(
     length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
     P = at_least(-1.5 * load, _NO_FORCE, force=force) / load
     return plain(length * np.cbrt(_root_at_force(P) ** 2))
-
-
-def unstable_contact_radius_at_force(
-    force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
-) -> Number:
-    r"""Return the smaller contact radius [m] in equilibrium at a force [N].
-
-    It is unstable under a dead load; with a rigid drive it is stable for radii above that of
-    :func:`jkr.instability`.
-
-    Parameters
-    ----------
-    force : array_like
-        Force [N], from minus :func:`jkr.pull_off_force` to 0.
-    radius, contact_modulus, work_of_adhesion : array_like
-        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range or not finite.
-
-    Examples
-    --------
-    >>> case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
-    >>> f"{unstable_contact_radius_at_force(-1e-4, **case) * 1e6:.1f} um"
-    '21.8 um'
-    """
-    length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
-    P = at_least(-1.5 * load, _NO_FORCE, force=force) / load
-    if np.any(P > 0):
-        raise InputError(
-            f"force must not be positive on the unstable branch, got {np.max(force)} N; "
-            "use contact_radius_at_force"
-        )
-    # The product of the two roots is -3P/4: no cancellation for a small force.
-    return plain(length * np.cbrt((0.75 * P / _root_at_force(P)) ** 2))
 
 
 def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
@@ -509,24 +445,6 @@ def gap(
     a, r, lift = _lift(position, contact_radius, contact_modulus, work_of_adhesion)
     angle = np.arctan2(np.sqrt(np.maximum((r - a) * (r + a), 0)), a)
     return plain(hertz.gap(r, contact_radius=a, radius=radius) + lift * 2 / np.pi * angle)
-
-
-def _roots_at_depth(d: npt.NDArray[np.float64]) -> tuple[Any, Any]:
-    r"""Return both roots s = sqrt(a) of :math:`s^4 - \sqrt2 s - d = 0`, d from -3/4.
-
-    Ferrari's solution; m is the positive root of the resolvent m^3 + d m - 1/4 = 0. Differences
-    of nearly equal numbers are written as quotients. At d = -3/4 round-off may cause a small
-    negative number under a root.
-    """
-    # beyond that the root grows with the fourth root of the depth, to round-off
-    far = np.maximum(d, _FAR) / _FAR
-    d = np.minimum(d, _FAR)
-    C = np.cbrt(1 / 8 + np.sqrt(np.maximum(1 / 64 + d**3 / 27, 0)))
-    m = 1 / (4 * (C**2 + d / 3 + (d / (3 * C)) ** 2))
-    t = np.sqrt(2 * m)
-    larger = (t + np.sqrt(np.maximum(2 * np.sqrt(2) / t - t**2, 0))) / 2
-    product = -d * np.sqrt(m) / (m**1.5 + 0.5)
-    return far**0.25 * larger, product / larger
 
 
 def _root_at_force(P: npt.NDArray[np.float64]) -> Any:

@@ -2,8 +2,7 @@
 
 from viscotack.model.geometry import Bonded, Frictionless
 
-from . import crossover, curve, design, laws, map, pad, rate, rectangle, regimes, unloading
-from .design import thickness_at_crack_speed, thickness_at_speed
+from . import crossover, curve, laws, map, pad, rate, rectangle, regimes, unloading
 from .laws import (
     fracture_length,
     half_plane_pull_off_stress,
@@ -22,7 +21,7 @@ from .regimes import (
     regime,
     regime_thicknesses,
 )
-from .unloading import PullOff, pull_off
+from .unloading import PullOff, pull_off, thickness_at_speed
 
 __all__ = [
     "REGIMES",
@@ -35,7 +34,6 @@ __all__ = [
     "Thicknesses",
     "crossover",
     "curve",
-    "design",
     "fracture_length",
     "half_plane_pull_off_stress",
     "laws",
@@ -51,7 +49,6 @@ __all__ = [
     "regime_thicknesses",
     "regimes",
     "stiffening",
-    "thickness_at_crack_speed",
     "thickness_at_speed",
     "thin_layer_depth_at_pull_off",
     "thin_layer_pull_off_stress",

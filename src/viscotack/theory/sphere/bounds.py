@@ -26,38 +26,6 @@ from viscotack.theory.elastic import jkr, lennard_jones
 _THRESHOLD_COEFFICIENT, _THRESHOLD_EXPONENT = 0.3, 2.7
 
 
-def rubbery_force(
-    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
-) -> Number:
-    r"""Return the pull-off force [N] of the slowest retraction, :math:`f(\mu)` times that of JKR.
-
-    Parameters
-    ----------
-    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
-        R of the sphere [m], rubbery :math:`E_0^*` [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0
-        [m]; positive.
-
-    Raises
-    ------
-    InputError
-        If a value is not positive and finite.
-
-    Examples
-    --------
-    >>> lens = dict(
-    ...     radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15, equilibrium_gap=1e-6
-    ... )
-    >>> f"{rubbery_force(**lens) * 1e3:.2f} mN"
-    '3.65 mN'
-    """
-    return lennard_jones.pull_off_force(
-        radius=radius,
-        contact_modulus=contact_modulus,
-        work_of_adhesion=work_of_adhesion,
-        equilibrium_gap=equilibrium_gap,
-    )
-
-
 def glassy_force(
     *,
     radius: Values,
@@ -145,41 +113,6 @@ def glassy_force_at_radius(
     length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
     c = np.minimum((a / length) ** 3, 9 / (8 * k))
     return plain(load * (np.sqrt(8 * c / k) - 4 / 3 * c))
-
-
-def rubbery_work(
-    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
-) -> Number:
-    r"""Return the work to pull-off [J] of the slowest retraction, for the Lennard-Jones traction.
-
-    Eq. 46, :func:`viscotack.theory.elastic.jkr.work_to_pull_off`, is its short-range limit
-    and a lower bound for every Tabor number.
-
-    Parameters
-    ----------
-    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
-        R of the sphere [m], rubbery :math:`E_0^*` [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0
-        [m]; positive.
-
-    Raises
-    ------
-    InputError
-        If a value is not positive and finite.
-
-    Examples
-    --------
-    >>> lens = dict(
-    ...     radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15, equilibrium_gap=1e-6
-    ... )
-    >>> f"{rubbery_work(**lens) * 1e9:.1f} nJ"
-    '19.6 nJ'
-    """
-    return lennard_jones.work_to_pull_off(
-        radius=radius,
-        contact_modulus=contact_modulus,
-        work_of_adhesion=work_of_adhesion,
-        equilibrium_gap=equilibrium_gap,
-    )
 
 
 def glassy_work(

@@ -4,7 +4,6 @@ Lengths along the surface are in beta, heights in beta^2/R, forces in R dg, time
 unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
-from . import growing, history, recession, series
 from ._edge import Edge
 from ._profile import (
     Profile,
@@ -34,14 +33,10 @@ __all__ = [
     "Receding",
     "Scales",
     "SpheresOnLayers",
-    "growing",
-    "history",
     "profile_of",
     "profile_on",
     "pull_apart",
     "radius_at_depth",
     "radius_at_force",
     "recede",
-    "recession",
-    "series",
 ]

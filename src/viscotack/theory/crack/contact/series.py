@@ -33,7 +33,7 @@ from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass
 from math import exp, log, nan, pi
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 import scipy
@@ -89,7 +89,25 @@ class Flow(NamedTuple):
     rates: Array
 
 
-class Receding:
+class _Strong:
+    """Units and strength of a contact."""
+
+    scales: Scales
+    _strength = 1.0
+
+    @property
+    def softness(self) -> float:
+        """Scale of the compliance [m/N]."""
+        return self.scales.depth / self.scales.force
+
+    def stronger(self, strength: float) -> Self:
+        """Return the same contact with a factor on its tension."""
+        other = copy(self)
+        other._strength = strength
+        return other
+
+
+class Receding(_Strong):
     """A viscoelastic contact whose edge recedes as a steady crack.
 
     Its state is ln of the radius [beta] and the memories d_j [beta^2/R].
@@ -119,24 +137,13 @@ class Receding:
         left: Callable[[Array, Array], Array],
     ) -> None:
         self._profile, self._mu2, self._radius = profile, tabor**2, radius
-        self.scales, self._strength = scales, 1.0
+        self.scales = scales
         self._chain = chain_of(crack.modes)
         self._limit = _LAST * crack.largest
         gained = np.geomspace(_SLOWEST, self._limit - 1, _ROWS)
         speed = np.maximum(np.asarray(crack.speed(1 + gained)), _TINY)
         self._gained, self._speeds = np.log(gained), np.log(speed)
         self._left = np.asarray(left(1 + gained, speed))
-
-    @property
-    def softness(self) -> float:
-        """Scale of the compliance [m/N]."""
-        return self.scales.depth / self.scales.force
-
-    def stronger(self, strength: float) -> Receding:
-        """Return the same contact with a factor on its tension."""
-        other = copy(self)
-        other._strength = strength
-        return other
 
     def over(self, time: float) -> Receding:
         """Return the same contact for a pull of this length [s]; much faster modes are instant."""
@@ -211,7 +218,7 @@ class Receding:
         return exp(float(np.interp(self._log(energy), self._gained, self._speeds)))
 
 
-class Elastic:
+class Elastic(_Strong):
     """An elastic contact, which follows its equilibrium curve; it has no state.
 
     Parameters
@@ -241,18 +248,7 @@ class Elastic:
         self._middle = (force[1:] + force[:-1]) / 2 * scales.force
         self._compliance = np.diff(depth) / np.diff(force) * scales.depth / scales.force
         self._pull_off = -float(force[0]) * scales.force
-        self.scales, self._strength = scales, 1.0
-
-    def stronger(self, strength: float) -> Elastic:
-        """Return the same contact with a factor on its tension."""
-        other = copy(self)
-        other._strength = strength
-        return other
-
-    @property
-    def softness(self) -> float:
-        """Scale of the compliance [m/N]."""
-        return self.scales.depth / self.scales.force
+        self.scales = scales
 
     @property
     def pull_off_force(self) -> float:

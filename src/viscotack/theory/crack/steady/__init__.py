@@ -1,8 +1,7 @@
 """Steady crack with a full traction law, for any linear solid, opening and closing."""
 
-from . import comparison, cracks, neighbour
 from ._branch import energy_of_odds
-from .comparison import Comparison, best_strength_ratio, compared
+from .comparison import Comparison, compared
 from .cracks import MESH_ERROR, Profile, SteadyCrack
 from .neighbour import NeighbourCrack
 
@@ -12,10 +11,6 @@ __all__ = [
     "NeighbourCrack",
     "Profile",
     "SteadyCrack",
-    "best_strength_ratio",
     "compared",
-    "comparison",
-    "cracks",
     "energy_of_odds",
-    "neighbour",
 ]

@@ -62,19 +62,6 @@ def lengths_of(mesh: Mesh, instantaneous: float, weights: Array, lengths: Array)
     return Lengths(instantaneous + float(np.sum(weights[fast])), weights[lagging], lengths[lagging])
 
 
-def lagged(mesh: Mesh, length: float) -> Array:
-    """Return the matrix from openings e at the nodes to the delayed d, for piecewise linear e.
-
-    The first opening also holds for all earlier positions.
-    """
-    behind, decay, late, early = _steps(mesh, length)
-    matrix = np.zeros_like(decay)
-    matrix[:, 1:] += decay[:, 1:] * early
-    matrix[:, :-1] += decay[:, 1:] * (late - behind)
-    matrix[:, 0] += decay[:, 0]
-    return matrix
-
-
 def lagged_far(mesh: Mesh, length: float) -> Array:
     """Return the delayed d of the far field of amplitude 1 at the nodes."""
     z = mesh.x + 1j * mesh.width
@@ -83,7 +70,10 @@ def lagged_far(mesh: Mesh, length: float) -> Array:
 
 
 def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
-    """Return the matrix of the openings w at the nodes, from (e - A far field, A); see `lagged`."""
+    """Return the matrix of the openings w at the nodes, from (e - A far field, A).
+
+    The memory is exact for openings e that are linear between the nodes.
+    """
     size = mesh.x.size
     later, earlier = _pairs(size)
     distance = mesh.x[later] - mesh.x[earlier]
@@ -152,11 +142,3 @@ def closing_inflow(
 def _mean_decay(step: Array) -> Array:
     """Return (1 - e^-y)/y."""
     return np.where(step < 1e-8, 1 - step / 2, -np.expm1(-step) / np.maximum(step, 1e-300))
-
-
-def _steps(mesh: Mesh, length: float) -> tuple[Array, Array, Array, Array]:
-    """Return decays over the elements and between all nodes, and the weights of both ends."""
-    step = mesh.dx / length
-    mean = _mean_decay(step)
-    distance = np.maximum(mesh.x[:, None] - mesh.x, 0.0)
-    return np.exp(-step), np.tril(np.exp(-distance / length)), mean, 1 - mean

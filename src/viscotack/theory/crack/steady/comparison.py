@@ -8,13 +8,11 @@ asymptote is :math:`1 + s V`, the fast one 1/k. All are for opening cracks.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
 from viscotack.model.traction.resting import check_of_gap_alone
 from viscotack.theory._checks import Values, positive
 from viscotack.theory.crack import greenwood, persson_brener
@@ -23,9 +21,6 @@ from .cracks import SteadyCrack
 
 # Value of the thesis, fitted to simulations of a sphere at a Tabor number of 3.24.
 THESIS_RATIO = np.pi / 9
-# Range of the search for the best ratio, and of its amplifications, as fractions of ln(1/k).
-_RATIOS, _PARTS = (0.05, 5.0), (0.02, 0.98)
-_POINTS = 60
 
 
 class Comparison(NamedTuple):
@@ -102,49 +97,3 @@ def compared(
         slow=1 + crack.slow_coefficient * v,
         fast=np.full(v.shape, crack.largest),
     )
-
-
-def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
-    """Fit the alpha of the Persson-Brener length, and return it with the remaining deviation.
-
-    The deviation is the largest relative one of the amplification, over all speeds.
-
-    Parameters
-    ----------
-    crack : SteadyCrack
-        Solid, not elastic, and law of the gap alone.
-
-    Returns
-    -------
-    alpha, deviation : float
-        Both dimensionless.
-
-    Raises
-    ------
-    InputError
-        If the solid is elastic.
-    OutOfRange
-        If the law depends on more than the gap.
-
-    Examples
-    --------
-    >>> from viscotack.model.materials import StandardSolid
-    >>> from viscotack.model.traction import LennardJones
-    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    >>> alpha, off = best_strength_ratio(SteadyCrack(solid, LennardJones(1, 1)))
-    >>> f"{alpha:.2f}, {off:.0%}"
-    '0.32, 7%'
-    """
-    if crack.largest == 1:
-        raise InputError(
-            "an elastic solid has an amplification of 1 at every speed, so there is nothing to fit"
-        )
-    gamma = crack.largest ** np.linspace(*_PARTS, _POINTS)
-    speed = np.asarray(crack.speed(gamma))
-
-    def misses(log_ratio: float) -> float:
-        found = compared(crack, speed, strength_ratio=float(np.exp(log_ratio)))
-        return float(np.max(np.abs(found.off("persson_brener"))))
-
-    found: Any = scipy.optimize.minimize_scalar(misses, bounds=np.log(_RATIOS), method="bounded")
-    return float(np.exp(found.x)), float(found.fun)

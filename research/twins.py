@@ -1,4 +1,4 @@
-r"""The plain twin: the published algorithm, slow and obvious, to test the fast solver against.
+r"""The plain twins: the published algorithms, slow and obvious, to test the fast solver against.
 
 Appendix V of Maghami, PhD thesis (2025), with the misprints of Eq. 4.13 and 34 corrected: equally
 spaced nodes, overlapping triangles by quadrature, a fixed time step, the full hereditary sum and a
@@ -17,25 +17,42 @@ material's unit:
 with the mean creep compliance of each step,
 :math:`\bar C_p = \frac{1}{dt}\int_{t_p}^{t_{p+1}} C\,dt`, which is exact for a pressure that
 is linear over the steps.
+
+**The punch**: chapter 3 there. M + 1 equally spaced nodes under the punch, full triangles at the
+ends too, without use of the symmetry.
+
+The full end triangles reach beyond the punch, so that M + 1 triangles bear where M would: the
+cohesive limit comes out as (M + 1)/M, and every stress too high by about as much.
+
+Lengths are in a0, gap and depth in h0, the pressure p in dg/h0 and positive in compression:
+
+.. math::
+
+    h_i = 1 - \delta + u_i, \qquad u_i^{(q)} = \frac{\pi}{2 \hat\sigma_0^2} \sum_j G_{ij}
+      \Big\{p_j^{(0)} + \sum_{m=0}^{q-1} \bar C_{q-1-m} \big(p_j^{(m+1)} - p_j^{(m)}\big)\Big\}
+
+with the mean creep compliance of each step and :math:`\hat\sigma_0 = 16/(9\sqrt3)`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from time import perf_counter
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import ellipkm1
+from scipy.linalg import toeplitz
+from scipy.special import ellipkm1, sici, xlogy
 
-from viscotack.errors import InputError
+from viscotack.model.geometry import Base
 from viscotack.model.materials import Material
 from viscotack.model.problem import Case, Groups, Problem
-from viscotack.model.protocol import AtDepth
 from viscotack.result import Outcome, Result, receding_speed
 
 EDGE_GAP = 3 ** (1 / 6)
 _GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(20)
+# kappa differs from 1 by exp(-beta) times a square: nothing is left at the end.
+_END = 60.0
 _S, _DS = (_GAUSS + 1) / 2, _WEIGHT / 2  # on (0, 1)
 
 
@@ -92,9 +109,9 @@ def lennard_jones(gap: npt.NDArray, tabor: float) -> tuple[npt.NDArray, npt.NDAr
 
 def newton(
     matrix: npt.NDArray, free: npt.NDArray, tabor: float, gap: npt.NDArray, most: int
-) -> tuple[npt.NDArray, int]:
-    """Solve gap = free + matrix sigma(gap) and return the gap and the iterations it took."""
-    for iteration in range(1, most + 1):
+) -> npt.NDArray:
+    """Solve gap = free + matrix sigma(gap) and return the gap."""
+    for _ in range(most):
         sigma, slope = lennard_jones(gap, tabor)
         residual = gap - free - matrix @ sigma
         change = np.linalg.solve(np.eye(len(gap)) - matrix * slope, -residual)
@@ -102,7 +119,7 @@ def newton(
         part = min(1.0, 0.3 / max(np.max(-change / gap), 1e-300), 1.0 / np.max(np.abs(change)))
         gap = gap + part * change
         if part == 1.0 and np.max(np.abs(change)) < 1e-9:
-            return gap, iteration
+            return gap
     raise ArithmeticError(f"Newton did not converge in {most} iterations")
 
 
@@ -115,7 +132,7 @@ def _jkr_gap(r: npt.NDArray, tabor: float, depth: float) -> npt.NDArray:
     return 1 + tabor * (hertz + np.sqrt(2 * np.pi * a) * 2 / np.pi * np.arccos(1 / x))
 
 
-def plain_solve(
+def plain_sphere(
     problem: Problem | Groups,
     *,
     nodes: int,
@@ -145,15 +162,15 @@ def plain_solve(
         second peak of a fast deep pull is not seen. A status "stopped" means that Newton's method
         failed.
     """
-    began, groups = perf_counter(), problem.groups()
-    mu, depth = groups.tabor, relaxed_depth(groups)
+    groups = problem.groups()
+    start: Any = groups.start
+    mu, depth = groups.tabor, start.depth
     r = np.linspace(0.0, outer_radius, nodes)
     G = mu * hat_matrix(nodes, r[1])
     ring = np.pi * r[1] * 2 * r
     ring[0], ring[-1] = np.pi * r[1] ** 2 / 3, np.pi * r[1] * (r[-1] - r[1] / 3)
     return retract(
         problem,
-        began=began,
         depth=depth,
         matrix=G,
         base=1 + 0.5 * mu * r * r,
@@ -167,19 +184,9 @@ def plain_solve(
     )
 
 
-def relaxed_depth(groups: Groups) -> float:
-    """Return the depth [h0] at which the test of a plain twin begins."""
-    if not isinstance(groups.start, AtDepth):
-        raise InputError(f"the plain twin starts by depth only, got {groups.start}")
-    if groups.rate is None or groups.moves:
-        raise InputError("the plain twin retracts and does nothing else")
-    return groups.start.depth
-
-
 def retract(
     problem: Case,
     *,
-    began: float,
     depth: float,
     matrix: npt.NDArray,
     base: npt.NDArray,
@@ -195,7 +202,7 @@ def retract(
 
     Displacement [h0] is `matrix` times sigma, `base` the gap [h0] at depth zero, `guess` the gap
     from which the first Newton starts; `force` tells the force of sigma and gap, `edge` the contact
-    edge, of which speeds count `edge_unit` each. It `began` [s] when its matrix was begun.
+    edge, of which speeds count `edge_unit` each.
     """
     groups = problem.groups()
     rate_of_drive = groups.rate
@@ -203,7 +210,7 @@ def retract(
     dt = (depth - last_depth) / rate_of_drive / steps
     C = mean_compliance(groups.material, dt, steps)
 
-    gap, iterations = newton(matrix, base - depth, tabor, guess, 200)
+    gap = newton(matrix, base - depth, tabor, guess, 200)
     first = sigma = lennard_jones(gap, tabor)[0]
     changes = np.zeros((steps, len(gap)))
     times, depths, forces, edges = [0.0], [depth], [force(sigma, gap)], [edge(gap)]
@@ -215,11 +222,11 @@ def retract(
         predicted = np.maximum(gap + rate, 0.7 * gap)
         free = base - depth + matrix @ (past - C[0] * sigma)
         try:
-            found, count = newton(C[0] * matrix, free, tabor, predicted, 30)
+            found = newton(C[0] * matrix, free, tabor, predicted, 30)
         except (ArithmeticError, np.linalg.LinAlgError) as failure:
             status = f"{Outcome.STOPPED} because {failure} at depth {depth:.4g} h0; take more steps"
             break
-        rate, gap, iterations = found - gap, found, iterations + count
+        rate, gap = found - gap, found
         new = lennard_jones(gap, tabor)[0]
         changes[q - 1], sigma = new - sigma, new
         times.append(q * dt)
@@ -238,12 +245,6 @@ def retract(
         contact_radius=np.array(edges),
         edge_speed=edge_unit * receding_speed(times, edges),
         status=status,
-        statistics={
-            "steps": len(times) - 1,
-            "newton_iterations": iterations,
-            "nodes": len(gap),
-            "wall_time_s": perf_counter() - began,
-        },
     )
 
 
@@ -267,3 +268,83 @@ def crossing(place: npt.NDArray, gap: npt.NDArray) -> float:
         return float(place[-1])
     share = (EDGE_GAP - gap[i]) / (gap[i + 1] - gap[i])
     return float(place[i] + share * (place[i + 1] - place[i]))
+
+
+def triangle_matrix(triangles: int, size: float, thickness: float, base: Base) -> npt.NDArray:
+    r"""Return G[i, j], displacement at node i under triangle j of unit pressure, E* = 1.
+
+    .. math:: G_{ij} = -\frac{4 b}{\pi} \left[ I_{A0} + I_A(i-j) + 4 z I_{AR}(i-j) \right],
+              \quad z = \frac{a}{2 b M}
+
+    Eq. 3.19 to 3.22, of the other sign: compression is positive. The ratio of hyperbolic functions
+    there is minus the base's transfer function at beta/2.
+    """
+    M, z = triangles, size / (2 * thickness * triangles)
+    beta, weight = _panels(0.0, 1.0, 1)
+    head = base.transfer(beta / 2) * np.sin(beta * z) ** 2 / beta**3 @ weight
+    # beyond 1 the transfer function is taken off and put back: an integral in closed form
+    w = 2 * z
+    tail = ((1 - np.cos(w)) / 2 + w / 2 * (np.sin(w) - w * sici(w)[1])) / 2
+    beta, weight = _panels(1.0, _END, 60)
+    tail -= (1 - base.transfer(beta / 2)) * np.sin(beta * z) ** 2 / beta**3 @ weight
+    first = -2 / z * (head + tail)
+    j = np.arange(M + 1)
+    # the panels follow the oscillation
+    beta, weight = _panels(0.0, _END, 60 + int(_END * z * M / 5))
+    decaying = weight * (1 - base.transfer(beta / 2)) * np.sin(beta * z) ** 2 / beta**3
+    second = -4 / z * np.array([decaying @ np.sin(beta * z * n) ** 2 for n in j])
+    half_plane = (
+        xlogy((j + 1) ** 2, j + 1) + xlogy((j - 1) ** 2, np.abs(j - 1)) - 2 * xlogy(j * j, j)
+    ) / 4
+    return toeplitz(-4 * thickness / np.pi * (first + second + 4 * z * half_plane))
+
+
+def _panels(low: float, high: float, count: int) -> tuple[npt.NDArray, npt.NDArray]:
+    """Return Gauss points and weights on `count` equal panels."""
+    edges = np.linspace(low, high, count + 1)
+    half = np.diff(edges)[:, None] / 2
+    return (edges[:-1, None] + half * (1 + _GAUSS)).ravel(), (half * _WEIGHT).ravel()
+
+
+def plain_punch(problem: Case, *, triangles: int, steps: int, last_depth: float) -> Result:
+    """Simulate a retraction from a relaxed depth with the published algorithm.
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        The start must be by depth and the traction law Lennard-Jones.
+    triangles : int
+        M, spacings under the punch; the thesis takes 200.
+    steps : int
+        Equal time steps from the start to `last_depth`.
+    last_depth : float
+        Depth of the drive at the end [h0], below the start.
+
+    Returns
+    -------
+    Result
+        Ends early just past the first minimum of the force, where a jump may follow: a larger
+        second peak of a fast deep pull is not seen. A status "stopped" means that Newton's method
+        failed.
+    """
+    groups = problem.groups()
+    start: Any = groups.start
+    strength = groups.traction.strength
+    punch: Any = groups.geometry
+    layer: Any = groups.body
+    size = punch.half_width
+    x = np.linspace(-size, size, triangles + 1)
+    G = triangle_matrix(triangles, size, layer.thickness, layer.base)
+    return retract(
+        problem,
+        depth=start.depth,
+        matrix=G * (np.pi / (2 * strength**2)),
+        base=np.ones(len(x)),
+        tabor=1.0,
+        guess=np.ones(len(x)),
+        force=lambda p, _: float(p.sum()) / (triangles * strength),
+        edge=lambda gap: crossing(x, gap),
+        edge_unit=1.0,
+        steps=steps,
+        last_depth=last_depth,
+    )
