@@ -2,12 +2,12 @@
 
 from math import isfinite, isnan
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .request import Answer, Caller, File, Request, csv_file, picture
+from .request import Answer, Caller, Request, csv_file, file_name, picture
 from .simulate import Accuracy, Limit
 
 
@@ -29,14 +29,12 @@ class OfArray(Request):
     )
     takes_own: ClassVar = True
 
-    file: Annotated[
-        Path,
-        File(
-            "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
-            metavar="ARRAY.toml",
-            argument=True,
-        ),
-    ]
+    file: Path = file_name(
+        "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
+        metavar="ARRAY.toml",
+        argument=True,
+        default=...,
+    )
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 60.0
 

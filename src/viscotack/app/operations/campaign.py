@@ -4,13 +4,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
-
 from viscotack.errors import InputError
 from viscotack.files.bounded import note_read
 
 from .flags import INDENTERS
-from .request import Answer, Caller, Contact, File, Number, Option, Output, Request
+from .request import (
+    Answer,
+    Caller,
+    File,
+    Output,
+    Request,
+    contact,
+    file_name,
+    number,
+    option,
+    switch,
+)
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress, Store
@@ -40,15 +49,13 @@ class Inputs(Request):
     word: ClassVar = "campaign inputs"
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "A problem in SI, or a rough surface.",
-            indenters=INDENTERS,
-            spelling="case",
-            rough=True,
-        ),
-    ]
+    problem: Any = contact(
+        "A problem in SI, or a rough surface.",
+        indenters=INDENTERS,
+        spelling="case",
+        rough=True,
+        default=...,
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """List the numbers of the problem by path."""
@@ -78,9 +85,9 @@ class DescribePlan(Request):
     takes_own: ClassVar = True
     local: ClassVar = _OF_PLANS
 
-    plan: Annotated[
-        Path, File(f"{_PLAN}; docs/campaigns.md describes both.", metavar="PLAN", argument=True)
-    ]
+    plan: Path = file_name(
+        f"{_PLAN}; docs/campaigns.md describes both.", metavar="PLAN", argument=True, default=...
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Read the plan and count its cases."""
@@ -121,19 +128,14 @@ class DescribePlan(Request):
 class Settings(Request):
     """Options that replace the settings of a plan; `CaseSettings` checks their ranges."""
 
-    accuracy: Annotated[
-        float | None, Number("Relative error of the pull-off force.", metavar="RELATIVE")
-    ] = None
-    until: Annotated[
-        Literal["pull-off", "detached"] | None,
-        Option("End of each case.", metavar="pull-off|detached"),
-    ] = None
-    time_limit: Annotated[
-        float | None, Number('Longest wall time of a case, "10 min".', unit="s", metavar="TIME")
-    ] = None
-    memory_limit: Annotated[
-        float | None, Number('Most memory of a case, "400 MB".', unit="byte", metavar="MEMORY")
-    ] = None
+    accuracy: float | None = number("Relative error of the pull-off force.", metavar="RELATIVE")
+    until: Literal["pull-off", "detached"] | None = option(
+        "End of each case.", metavar="pull-off|detached"
+    )
+    time_limit: float | None = number('Longest wall time of a case, "10 min".', "s", metavar="TIME")
+    memory_limit: float | None = number(
+        'Most memory of a case, "400 MB".', "byte", metavar="MEMORY"
+    )
 
 
 class Run(Settings):
@@ -151,23 +153,20 @@ class Run(Settings):
     takes_own: ClassVar = True
     local: ClassVar = _OF_FOLDERS
 
-    plan: Annotated[
-        Path | None,
-        File(f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True),
-    ] = None
-    out: Annotated[Path, File("Folder of the campaign; created if missing.", metavar="DIR")]
-    workers: Annotated[
-        int, Option("Processes on this machine, one thread each.", metavar="N"), Field(ge=1)
-    ] = 1
-    scheduler: Annotated[
-        str | None,
-        Option('A Dask scheduler with workers, "tcp://host:8786".', metavar="ADDRESS"),
-    ] = None
-    shard: Annotated[
-        str | None,
-        Option("Part of the plan, for a job array; campaign merge combines them.", metavar="K/N"),
-    ] = None
-    retry: Annotated[bool, Option("Also repeat the cases that failed before.")] = False
+    plan: Path | None = file_name(
+        f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True
+    )
+    out: Path = file_name("Folder of the campaign; created if missing.", metavar="DIR", default=...)
+    workers: int = option(
+        "Processes on this machine, one thread each.", metavar="N", default=1, ge=1
+    )
+    scheduler: str | None = option(
+        'A Dask scheduler with workers, "tcp://host:8786".', metavar="ADDRESS"
+    )
+    shard: str | None = option(
+        "Part of the plan, for a job array; campaign merge combines them.", metavar="K/N"
+    )
+    retry: bool = switch("Also repeat the cases that failed before.")
 
     def answer(self, caller: Caller) -> Answer:
         """Run the missing cases and report progress."""
@@ -253,10 +252,10 @@ class Merge(Request):
     word: ClassVar = "campaign merge"
     local: ClassVar = _OF_FOLDERS
 
-    folders: Annotated[
-        tuple[Path, ...], File("Folders of campaigns.", metavar="DIR...", argument=True)
-    ]
-    out: Annotated[Path, File("Folder of the merged campaign.", metavar="DIR")]
+    folders: tuple[Path, ...] = file_name(
+        "Folders of campaigns.", metavar="DIR...", argument=True, default=...
+    )
+    out: Path = file_name("Folder of the merged campaign.", metavar="DIR", default=...)
 
     def answer(self, caller: Caller) -> Answer:
         """Merge the campaigns."""
@@ -284,7 +283,7 @@ class Export(Request):
     local: ClassVar = _OF_FOLDERS
 
     folder: AFolder
-    trajectories: Annotated[bool, Option("Write the points of each curve to CSV too.")] = False
+    trajectories: bool = switch("Write the points of each curve to CSV too.")
 
     def answer(self, caller: Caller) -> Answer:
         """Open the folder; tables are created while they are written."""

@@ -2,16 +2,14 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
-
-from pydantic import Field
+from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .parts.record_words import read
 from .predict import OF_METHOD
-from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .request import Answer, Caller, Request, csv_file, file_name, option, picture
 from .simulate import Accuracy, Limit
 
 
@@ -36,17 +34,14 @@ class OfDesign(Request):
     )
     takes_own: ClassVar = True
 
-    file: Annotated[
-        Path,
-        File(
-            "The [targets], [bounds] of variables, the [interface], and [material] or "
-            "[[materials]].",
-            metavar="DESIGN.toml",
-            argument=True,
-        ),
-    ]
-    confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
-    seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
+    file: Path = file_name(
+        "The [targets], [bounds] of variables, the [interface], and [material] or [[materials]].",
+        metavar="DESIGN.toml",
+        argument=True,
+        default=...,
+    )
+    confirm: int = option("Number of designs that are simulated.", default=3, ge=0, le=3)
+    seed: int = option("Seed of the search.", default=0, ge=0, le=2**32 - 1)
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 60.0
 

@@ -1,10 +1,10 @@
 """The operation ``export contact``: a contact with memory for other simulators."""
 
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from viscotack.units import readable
 
-from .request import Answer, Caller, Contact, Option, Output, Request
+from .request import Answer, Caller, Output, Request, contact, option
 
 if TYPE_CHECKING:
     from viscotack.design.control import ReducedContact
@@ -31,17 +31,15 @@ class ExportContact(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "A sphere on a half-space in SI; its protocol does not matter.",
-            indenters=("sphere",),
-            spelling="case",
-        ),
-    ]
-    name: Annotated[
-        str, Option("Type of the contact, and prefix of the functions in C.", metavar="NAME")
-    ] = "contact"
+    problem: Any = contact(
+        "A sphere on a half-space in SI; its protocol does not matter.",
+        indenters=("sphere",),
+        spelling="case",
+        default=...,
+    )
+    name: str = option(
+        "Type of the contact, and prefix of the functions in C.", metavar="NAME", default="contact"
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Reduce the contact and write it."""

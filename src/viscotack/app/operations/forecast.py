@@ -11,7 +11,7 @@ from viscotack.units import parse
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
 from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
-from .request import Answer, Caller, File, Number, Output, Request, Text, csv_file, picture
+from .request import Answer, Caller, File, Output, Request, csv_file, number, picture, text
 from .simulate import HowLong
 
 _MOST = 50  # speeds between two ends
@@ -46,36 +46,23 @@ class Wish(Request):
 
     study: StudyFile
 
-    speed: Annotated[
-        tuple[Any, ...],
-        Text(
-            'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
-            "the range of the series.",
-            metavar="SPEED|FROM..TO",
-            to=speeds_of,
-        ),
-    ] = ()
-    preload: Annotated[float | None, Number("Preload; default: that of the series.", unit="N")] = (
-        None
+    speed: tuple[Any, ...] = text(
+        'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
+        "the range of the series.",
+        metavar="SPEED|FROM..TO",
+        to=speeds_of,
+        default=(),
     )
-    temperature: Annotated[
-        float | None,
-        Number(
-            'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
-            "of the times.",
-            unit="K",
-        ),
-    ] = None
-    dwell: Annotated[
-        float | None,
-        Number(
-            "Dwell time under the preload; default: full relaxation. Needs --approach-speed.",
-            unit="s",
-        ),
-    ] = None
-    approach_speed: Annotated[
-        float | None, Number("Approach speed; needs --dwell.", unit="m/s")
-    ] = None
+    preload: float | None = number("Preload; default: that of the series.", "N")
+    temperature: float | None = number(
+        'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
+        "of the times.",
+        "K",
+    )
+    dwell: float | None = number(
+        "Dwell time under the preload; default: full relaxation. Needs --approach-speed.", "s"
+    )
+    approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s")
 
     def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""

@@ -1,12 +1,12 @@
 """The operation ``identify approach``: range of attraction from the forces before the contact."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
 from .parts.rig import Rig, refusals
 from .parts.solid import solid_of
-from .request import Answer, Caller, Named, Number
+from .request import Answer, Caller, named, number
 
 
 class IdentifyApproach(Rig):
@@ -24,30 +24,19 @@ class IdentifyApproach(Rig):
 
     word: ClassVar = "identify approach"
 
-    radius: Annotated[float, Number('Sphere radius, "7.5 um".', unit="m", example='"7.5 um"')]
-    contact_modulus: Annotated[
-        float | None,
-        Number(
-            'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.',
-            unit="Pa",
-        ),
-    ] = None
-    material: Annotated[
-        Any,
-        Named(
-            "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
-            "once is the other limit.",
-            metavar="PASSPORT",
-        ),
-    ] = None
-    work_of_adhesion: Annotated[
-        float | None,
-        Number(
-            'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.',
-            unit="J/m^2",
-        ),
-    ] = None
-    level: Annotated[float, Number("Confidence level of interval and bound.")] = 0.9
+    radius: float = number('Sphere radius, "7.5 um".', "m", example='"7.5 um"', default=...)
+    contact_modulus: float | None = number(
+        'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.', "Pa"
+    )
+    material: Any = named(
+        "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
+        "once is the other limit.",
+        metavar="PASSPORT",
+    )
+    work_of_adhesion: float | None = number(
+        'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"
+    )
+    level: float = number("Confidence level of interval and bound.", default=0.9)
 
     def answer(self, caller: Caller) -> Answer:
         """Bound the range by every approach."""

@@ -9,7 +9,21 @@ from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
 from .parts.solid import APassport, passport_of
-from .request import Answer, Caller, Named, Number, Option, Output, Request, Text, quoted, two_of
+from .request import (
+    Answer,
+    Caller,
+    Number,
+    Option,
+    Output,
+    Request,
+    Text,
+    named,
+    number,
+    option,
+    quoted,
+    switch,
+    two_of,
+)
 
 if TYPE_CHECKING:
     from viscotack.model.materials.conversion import PronyForm
@@ -89,30 +103,24 @@ class ConvertMaterial(Request):
     outputs: ClassVar = (_OUTPUT,)
     takes_own: ClassVar = True
 
-    source: Annotated[
-        Any,
-        Named(
-            "A material passport, or the name of a published material such as pdms-10-1. Or, with "
-            "--from, another program's input.",
-            metavar="PASSPORT|FILE",
-            argument=True,
-        ),
-    ]
+    source: Any = named(
+        "A material passport, or the name of a published material such as pdms-10-1. Or, with "
+        "--from, another program's input.",
+        metavar="PASSPORT|FILE",
+        argument=True,
+        default=...,
+    )
     temperature: Temperature = None
-    prony: Annotated[bool, Option("Convert to a Prony series with a stated error.")] = False
+    prony: bool = switch("Convert to a Prony series with a stated error.")
     frequencies: Frequencies = None
     tolerance: Tolerance = 3e-4
-    code: Annotated[Code | None, Option("Program whose input file is read.", flags=("--from",))] = (
-        None
-    )
+    code: Code | None = option("Program whose input file is read.", flags=("--from",))
     pressure_unit: PressureUnit = None
     time_unit: TimeUnit = None
-    rubbery_modulus: Annotated[
-        float | None, Number("Long-term Young's modulus, if not in the input file.", unit="Pa")
-    ] = None
-    poisson_ratio: Annotated[float | None, Number("Poisson ratio, if not in the input file.")] = (
-        None
+    rubbery_modulus: float | None = number(
+        "Long-term Young's modulus, if not in the input file.", "Pa"
     )
+    poisson_ratio: float | None = number("Poisson ratio, if not in the input file.")
 
     def check(self) -> None:
         """Check that options of other programs' input, and of a series, are given for these."""
@@ -201,18 +209,15 @@ class ExportMaterial(Request):
     takes_own: ClassVar = True
 
     passport: APassport
-    to: Annotated[Code, Option("The program to write for.")]
+    to: Code = option("The program to write for.", default=...)
     temperature: Temperature = None
     frequencies: Frequencies = None
     tolerance: Tolerance = 3e-4
     pressure_unit: PressureUnit = None
     time_unit: TimeUnit = None
-    bulk_modulus: Annotated[
-        float | None,
-        Number(
-            'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".', unit="Pa"
-        ),
-    ] = None
+    bulk_modulus: float | None = number(
+        'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".', "Pa"
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Make the series and write it as the program has it."""

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined, core_schema
 
@@ -109,7 +109,7 @@ class Number(_Read):
 
     form: ClassVar = "number"
 
-    unit: str = field(default="1", kw_only=True)
+    unit: str = "1"
     above: float | None = field(default=None, kw_only=True)
     least: float | None = field(default=None, kw_only=True)
     most: float | None = field(default=None, kw_only=True)
@@ -261,6 +261,31 @@ class Contact(_Read):
     def read(self, value: Any) -> Any:
         """Return the problem as it was given; the answer reads it."""
         return value
+
+
+def _declares(kind: type[Option]) -> Callable[..., Any]:
+    """Return the function that declares a field: ``radius: float = number("Radius.", "m")``.
+
+    Its arguments are those of the option, the `default`, and the limits of whole numbers. A field
+    may be left out, unless its default is ``...``.
+    """
+
+    def declare(*words: str, default: Any = None, **more: Any) -> Any:
+        limits = {name: more.pop(name) for name in ("ge", "le") if name in more}
+        info: Any = Field(default, **limits)
+        info.metadata.append(kind(*words, **more))
+        return info
+
+    return declare
+
+
+option, number, text = map(_declares, (Option, Number, Text))
+file_name, named, rows, contact = map(_declares, (File, Named, Rows, Contact))
+
+
+def switch(words: str, **more: Any) -> Any:
+    """Declare an option that is off by default."""
+    return option(words, default=False, **more)
 
 
 @dataclass(frozen=True)

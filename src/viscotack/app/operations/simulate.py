@@ -14,14 +14,15 @@ from .parts.record_words import units_of
 from .request import (
     Answer,
     Caller,
-    Contact,
-    File,
     Option,
     Output,
     Request,
+    contact,
     csv_file,
+    file_name,
     number_of,
     picture,
+    switch,
 )
 
 if TYPE_CHECKING:
@@ -120,32 +121,26 @@ class Simulate(Request):
     """,
     }
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "The contact and the moves of the machine.", indenters=INDENTERS, spelling="commands"
-        ),
-    ]
+    problem: Any = contact(
+        "The contact and the moves of the machine.",
+        indenters=INDENTERS,
+        spelling="commands",
+        default=...,
+    )
     until: Until = "detached"
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: HowLong = None
-    whole: Annotated[
-        bool,
-        Option(
-            "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
-            "at a smaller depth with the same result."
-        ),
-    ] = False
-    profiles: Annotated[
-        bool, Option("Also keep pressure and gap along the radius, at the steps of the solver.")
-    ] = False
-    sensitivities: Annotated[
-        bool,
-        Option(
-            "Also compute the elasticities of force, work, depth and contact radius at pull-off "
-            "by every input, from simulations with each changed by 2 %."
-        ),
-    ] = False
+    whole: bool = switch(
+        "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
+        "at a smaller depth with the same result."
+    )
+    profiles: bool = switch(
+        "Also keep pressure and gap along the radius, at the steps of the solver."
+    )
+    sensitivities: bool = switch(
+        "Also compute the elasticities of force, work, depth and contact radius at pull-off "
+        "by every input, from simulations with each changed by 2 %."
+    )
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:
@@ -182,7 +177,9 @@ class Show(Request):
     outputs: ClassVar = _FILES
     takes_own: ClassVar = True
 
-    file: Annotated[Path, File("A result that --save wrote.", metavar="FILE.npz", argument=True)]
+    file: Path = file_name(
+        "A result that --save wrote.", metavar="FILE.npz", argument=True, default=...
+    )
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.model.problem import RoughCase
@@ -11,7 +11,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
 from .parts.record_words import units_of
-from .request import Answer, Caller, Contact, Request, Rows, csv_file
+from .request import Answer, Caller, Request, contact, csv_file, rows
 from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:
@@ -38,24 +38,20 @@ class Sweep(Request):
     outputs: ClassVar = (csv_file("Write a row for each case."),)
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "The problem whose numbers are replaced, in SI; a case or a rough surface.",
-            indenters=INDENTERS,
-            spelling="case",
-            rough=True,
-        ),
-    ]
-    cases: Annotated[
-        Path | tuple[Mapping[str, Any], ...],
-        Rows(
-            'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
-            "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
-            metavar="CASES.csv",
-            argument=True,
-        ),
-    ]
+    problem: Any = contact(
+        "The problem whose numbers are replaced, in SI; a case or a rough surface.",
+        indenters=INDENTERS,
+        spelling="case",
+        rough=True,
+        default=...,
+    )
+    cases: Path | tuple[Mapping[str, Any], ...] = rows(
+        'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
+        "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
+        metavar="CASES.csv",
+        argument=True,
+        default=...,
+    )
     accuracy: Accuracy = DEFAULT_ACCURACY
     until: Until = "pull-off"
     time_limit: Limit = 120.0

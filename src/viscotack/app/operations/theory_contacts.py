@@ -9,7 +9,7 @@ from viscotack.errors import InputError
 from .parts.closed_form import closed_form
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.tables import as_text
-from .request import Answer, Caller, Contact, Number, Request, csv_file, picture, quoted
+from .request import Answer, Caller, Number, Request, contact, csv_file, number, picture, quoted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,13 +110,12 @@ class OfDisc(Request):
     word: ClassVar = "theory disc"
     outputs: ClassVar = (picture("Draw the force against the radius of the disc."),)
 
-    radius: Annotated[float, Number('Radius of the disc a, "1 mm".', unit="m", above=0)]
+    radius: float = number('Radius of the disc a, "1 mm".', "m", above=0, default=...)
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
-    strength: Annotated[
-        float | None,
-        Number('Of the interface, "50 kPa"; its force limits that of Kendall.', unit="Pa", above=0),
-    ] = None
+    strength: float | None = number(
+        'Of the interface, "50 kPa"; its force limits that of Kendall.', "Pa", above=0
+    )
     thickness: Annotated[float | None, THICKNESS] = None
     bonded: Annotated[float | None, BONDED] = None
 
@@ -170,17 +169,12 @@ class Maugis(Request):
     radius: Annotated[float | None, _RADIUS] = None
     contact_modulus: Annotated[float | None, _MODULUS] = None
     work_of_adhesion: Annotated[float | None, _WORK] = None
-    strength: Annotated[
-        float | None, Number('Tension in the ring, "5 MPa".', unit="Pa", above=0)
-    ] = None
-    tabor: Annotated[
-        float | None,
-        Number(
-            "Instead of all of them, for dimensionless answers: the Tabor number of a "
-            "Lennard-Jones contact of the same work and peak tension.",
-            above=0,
-        ),
-    ] = None
+    strength: float | None = number('Tension in the ring, "5 MPa".', "Pa", above=0)
+    tabor: float | None = number(
+        "Instead of all of them, for dimensionless answers: the Tabor number of a "
+        "Lennard-Jones contact of the same work and peak tension.",
+        above=0,
+    )
 
     def check(self) -> None:
         """Refuse options that exclude each other."""
@@ -243,7 +237,7 @@ class OfCrack(Request):
     outputs: ClassVar = (csv_file("Write the history as CSV, dimensionless.", "curve"), picture())
     takes_own: ClassVar = True
 
-    problem: Annotated[Any, Contact("The contact, of a sphere.", whole=False)]
+    problem: Any = contact("The contact, of a sphere.", whole=False, default=...)
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the history."""

@@ -14,7 +14,7 @@ from viscotack.units import parse
 from .flags import LAW
 from .parts.closed_form import closed_form
 from .parts.solid import Reduced
-from .request import Answer, Caller, File, Number, Option, Text, picture, quoted
+from .request import Answer, Caller, Number, file_name, number, option, picture, quoted, text
 
 if TYPE_CHECKING:
     from viscotack.theory import SteadyCrack
@@ -37,29 +37,19 @@ class _OfTheory(Reduced):
 
     outputs: ClassVar = (picture(),)
 
-    speed: Annotated[
-        tuple[float, ...],
-        Number(
-            "Crack speed, in the theory's length over the time of the material (a second with "
-            "--modulus-table); repeat it for more. Without it a table over the range that matters."
-        ),
-    ] = ()
-    modulus_table: Annotated[
-        Path | None,
-        File(
-            "Instead of a material: a measured complex modulus, CSV with the header "
-            "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). "
-            "The answer is two bounds, for what the solid may do outside of the table."
-        ),
-    ] = None
-    rubbery_modulus: Annotated[
-        float | None,
-        Number(
-            'Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".',
-            unit="Pa",
-            above=0,
-        ),
-    ] = None
+    speed: tuple[float, ...] = number(
+        "Crack speed, in the theory's length over the time of the material (a second with "
+        "--modulus-table); repeat it for more. Without it a table over the range that matters.",
+        default=(),
+    )
+    modulus_table: Path | None = file_name(
+        "Instead of a material: a measured complex modulus, CSV with the header "
+        "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). "
+        "The answer is two bounds, for what the solid may do outside of the table."
+    )
+    rubbery_modulus: float | None = number(
+        'Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".', "Pa", above=0
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory at the speeds, or over the range that matters."""
@@ -204,18 +194,16 @@ class OfSteadyCrack(Scales):
     word: ClassVar = "theory steady-crack"
     outputs: ClassVar = (picture(),)
 
-    speed: Annotated[
-        tuple[Any, ...],
-        Text(
-            "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
-            "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
-            "it a table over the range that matters.",
-            to=_speed,
-        ),
-    ] = ()
-    law: Annotated[str | None, Option(LAW, metavar="LAW")] = None
-    strength_ratio: Annotated[float, Number("Alpha of Persson and Brener's length.", above=0)] = (
-        THESIS_RATIO
+    speed: tuple[Any, ...] = text(
+        "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
+        "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
+        "it a table over the range that matters.",
+        to=_speed,
+        default=(),
+    )
+    law: str | None = option(LAW, metavar="LAW")
+    strength_ratio: float = number(
+        "Alpha of Persson and Brener's length.", above=0, default=THESIS_RATIO
     )
 
     def answer(self, caller: Caller) -> Answer:

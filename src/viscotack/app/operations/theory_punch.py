@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from viscotack.units import parse
 
 from .flags import FLAGS
 from .parts.solid import Reduced, passport_of
-from .request import Answer, Caller, File, Named, Number, Option, picture, quoted
+from .request import Answer, Caller, file_name, named, number, option, picture, quoted, switch
 
 if TYPE_CHECKING:
     from viscotack.model.materials import Material
@@ -40,59 +40,34 @@ class OfPad(Reduced):
     word: ClassVar = "theory punch"
     outputs: ClassVar = (picture("Draw that map."),)
 
-    case: Annotated[
-        Path | None,
-        File(
-            "A problem in SI with units, instead of the flags of the problem; docs/input.md "
-            "describes it.",
-            metavar="CASE.toml",
-            argument=True,
-        ),
-    ] = None
-    half_width: Annotated[
-        float | None, Number('Half width of the punch a, "1 mm".', unit="m", above=0)
-    ] = None
-    thickness: Annotated[
-        float | None,
-        Number('Thickness of the layer b, "200 um": what does it hold?', unit="m", above=0),
-    ] = None
-    stress: Annotated[
-        float | None,
-        Number(
-            'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?', unit="Pa", above=0
-        ),
-    ] = None
-    speed: Annotated[float | None, Number('Retraction speed, "100 um/s".', unit="m/s", above=0)] = (
-        None
+    case: Path | None = file_name(
+        "A problem in SI with units, instead of the flags of the problem; docs/input.md "
+        "describes it.",
+        metavar="CASE.toml",
+        argument=True,
     )
-    contact_modulus: Annotated[
-        float | None, Number('E0* = E0/(1 - nu^2), "1 MPa".', unit="Pa", above=0)
-    ] = None
-    work_of_adhesion: Annotated[
-        float | None, Number('dg0, "50 mJ/m^2".', unit="J/m^2", above=0)
-    ] = None
-    strength: Annotated[
-        float | None, Number('Of the interface, sigma0, "50 kPa".', unit="Pa", above=0)
-    ] = None
-    bonded: Annotated[float | None, Number(FLAGS["bonded"].words, least=0, most=0.5)] = None
-    material: Annotated[
-        Any,
-        Named(
-            "sls (also when left out): standard linear solid, tau0 is its retardation time. "
-            "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere.",
-            metavar="MATERIAL",
-        ),
-    ] = None
-    tau0: Annotated[
-        float | None,
-        Number('Time of the material, "1 ms" (not for prony:FILE).', unit="s", above=0),
-    ] = None
-    theory: Annotated[
-        Literal["greenwood", "persson-brener"], Option("Theory of the moving crack.")
-    ] = "greenwood"
-    map: Annotated[bool, Option("Add to the JSON how the pad detaches by thickness and speed.")] = (
-        False
+    half_width: float | None = number('Half width of the punch a, "1 mm".', "m", above=0)
+    thickness: float | None = number(
+        'Thickness of the layer b, "200 um": what does it hold?', "m", above=0
     )
+    stress: float | None = number(
+        'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?', "Pa", above=0
+    )
+    speed: float | None = number('Retraction speed, "100 um/s".', "m/s", above=0)
+    contact_modulus: float | None = number('E0* = E0/(1 - nu^2), "1 MPa".', "Pa", above=0)
+    work_of_adhesion: float | None = number('dg0, "50 mJ/m^2".', "J/m^2", above=0)
+    strength: float | None = number('Of the interface, sigma0, "50 kPa".', "Pa", above=0)
+    bonded: float | None = number(FLAGS["bonded"].words, least=0, most=0.5)
+    material: Any = named(
+        "sls (also when left out): standard linear solid, tau0 is its retardation time. "
+        "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere.",
+        metavar="MATERIAL",
+    )
+    tau0: float | None = number('Time of the material, "1 ms" (not for prony:FILE).', "s", above=0)
+    theory: Literal["greenwood", "persson-brener"] = option(
+        "Theory of the moving crack.", default="greenwood"
+    )
+    map: bool = switch("Add to the JSON how the pad detaches by thickness and speed.")
 
     def check(self) -> None:
         """Refuse options that exclude each other."""

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from viscotack.errors import InputError
 
 from ..flags import FLAGS, material_table, needs_of
-from ..request import Caller, Named, Number, Request, quoted
+from ..request import Caller, Named, Request, named, number, quoted
 
 if TYPE_CHECKING:
     from viscotack.model.materials.material import Material
@@ -46,16 +46,13 @@ def solid_of(given: "str | Passport", caller: Caller) -> "Passport | Material":
 class Reduced(Request):
     """A request for a dimensionless material: a model with its numbers, or a file."""
 
-    material: Annotated[
-        Any,
-        Named(
-            "power-law (also when left out; theory steady-crack without --exponent takes sls), "
-            "sls, prony:FILE or a passport FILE.toml, as for simulate sphere.",
-            metavar="MATERIAL",
-        ),
-    ] = None
-    modulus_ratio: Annotated[float | None, Number(FLAGS["modulus-ratio"].words, above=0)] = None
-    exponent: Annotated[float | None, Number(FLAGS["exponent"].words, above=0)] = None
+    material: Any = named(
+        "power-law (also when left out; theory steady-crack without --exponent takes sls), "
+        "sls, prony:FILE or a passport FILE.toml, as for simulate sphere.",
+        metavar="MATERIAL",
+    )
+    modulus_ratio: float | None = number(FLAGS["modulus-ratio"].words, above=0)
+    exponent: float | None = number(FLAGS["exponent"].words, above=0)
 
     @property
     def given(self) -> dict[str, Any]:
