@@ -379,9 +379,12 @@ def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any)
     of_solid = [name.replace("_", "-") for name in needs_of(solid, nouns, in_si=in_si)]
     if in_si:
         needed = ["half-width" if word == "punch" else "radius", "work-of-adhesion", *of_solid]
-        needed += ["rubbery-modulus"] if kind and "contact-modulus" not in said else []
-        needed += [] if {"equilibrium-gap", "strength"} & said.keys() else ["equilibrium-gap"]
-        needed += ["thickness"] if word == "punch" else []
+        modulus, gap, thickness = "rubbery-modulus", "equilibrium-gap", []
+        if word == "punch":
+            modulus, gap, thickness = "contact-modulus", "strength", ["thickness"]
+        needed += [modulus] if kind and "contact-modulus" not in said else []
+        needed += [] if {"equilibrium-gap", "strength"} & said.keys() else [gap]
+        needed += thickness
         needed += [] if moved else ["speed"]
     else:
         sizes = {"punch": ["size", "thickness", "cohesion"]}.get(word, ["tabor"])

@@ -1,17 +1,29 @@
 """The operation ``theory punch``: theory of a flat punch on a layer."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.units import parse
 
 from .flags import FLAGS
-from .parts.solid import Reduced, passport_of
-from .request import Answer, Caller, file_name, named, number, option, picture, quoted, switch
+from .parts.solid import Reduced
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    file_name,
+    named,
+    number,
+    option,
+    option_of,
+    picture,
+    switch,
+)
+from .statement import statement
 
 if TYPE_CHECKING:
     from viscotack.model.materials import Material
@@ -22,8 +34,10 @@ if TYPE_CHECKING:
 _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
 _SLOW, _FAST = 0.003, 0.99
-# What states a solid and its scales, which a passport does alone.
-_OF_SOLID = ("contact_modulus", "modulus_ratio", "exponent", "tau0")
+# Options of the problem that are those of `simulate punch`.
+_OF_PAD = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded", "tau0")
+_OF_PAD += tuple(Reduced.model_fields)
+_PUNCH = Contact("", indenters=("punch",), whole=False)
 
 
 class OfPad(Reduced):
@@ -92,104 +106,54 @@ class OfPad(Reduced):
             pictures={"plot": lambda: draw_regimes(regimes or _map(pad, crack))},
         )
 
-    @property
-    def _of_pad(self) -> dict[str, Any]:
-        """Options that define the pad."""
-        names = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded")
-        said = {name: getattr(self, name) for name in (*names, "tau0")} | self.given
-        return {name: value for name, value in said.items() if value is not None}
-
     def _pad(self, caller: Caller) -> "tuple[Pad, Material, dict[str, float]]":
         """Return the pad and its solid in SI, and the requested numbers."""
+        from viscotack.theory.punch import Pad
+
+        problem = self._problem(caller)
+        pad = Pad(
+            half_width=problem.geometry.half_width,
+            contact_modulus=problem.material.contact_modulus,
+            work_of_adhesion=problem.traction.work_of_adhesion,
+            strength=problem.traction.strength,
+            base=problem.body.base,
+        )
         wanted = {"thickness": self.thickness, "stress": self.stress, "speed": self.speed}
+        if self.case is not None:
+            wanted["speed"] = self.speed or problem.protocol.speed
+            if self.stress is None:
+                wanted["thickness"] = self.thickness or problem.body.thickness
         wanted = {name: value for name, value in wanted.items() if value is not None}
-        if self.case is None:
-            pad, solid = self._of_flags(caller)
-        else:
-            problem = self._of_case(caller.file(self.case), caller)
-            pad, solid = _pad_of(problem), problem.material
-            stated = {} if "stress" in wanted else {"thickness": problem.body.thickness}
-            if problem.protocol.speed is not None:
-                stated["speed"] = problem.protocol.speed
-            wanted = stated | wanted
         if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
             raise InputError(
                 'speed is missing, the retraction speed; for example "100 um/s"', field="speed"
             )
-        return pad, solid, wanted
+        return pad, problem.material, wanted
 
-    def _of_case(self, case: Path, caller: Caller) -> Any:
-        """Return the problem of a case file."""
-        from viscotack.model.geometry import FlatPunch
-        from viscotack.model.problem import Groups
-        from viscotack.model.problem.case_file import read_case
-
-        if self._of_pad:
-            given = ", ".join(self._of_pad)
-            raise InputError(f"{case} defines the whole problem; leave out {given}")
-        problem = read_case(case, beside=caller.within(case).file)
-        if not isinstance(problem.geometry, FlatPunch) or isinstance(problem, Groups):
-            raise InputError(
-                f"{case} states a {problem.geometry.word} or no units; this command needs a "
-                "flat punch in SI"
-            )
-        return problem
-
-    def _of_flags(self, caller: Caller) -> "tuple[Pad, Material]":
-        from viscotack.model.geometry import Bonded, Frictionless
+    def _problem(self, caller: Caller) -> Any:
+        """Return the problem of the case file, or of the options as `simulate punch` reads them."""
         from viscotack.model.materials.library import MATERIALS
-        from viscotack.theory.punch import Pad
+        from viscotack.model.materials.passport import Passport
 
-        given, words = self._of_pad, self.material or ""
-        passport = not isinstance(words, str) or words.endswith(".toml") or words in MATERIALS
-        needed = ["half_width", "work_of_adhesion", "strength"]
-        needed += [] if passport else ["contact_modulus"]
-        if missing := [name for name in needed if name not in given]:
-            raise InputError(f"{quoted(missing)} missing")
-        if passport:
-            if beside := [name for name in _OF_SOLID if name in given]:
-                raise InputError(f"{words} defines the whole material; leave out `{beside[0]}`")
-            solid = passport_of(words, caller).material
-            modulus = solid.contact_modulus
+        said: dict[str, Any] = {"indenter": "punch"}
+        for name in (*_OF_PAD, "thickness", "speed"):
+            value = getattr(self, name)
+            unit = getattr(option_of(OfPad.model_fields[name]), "unit", "1")
+            said[name] = value if value is None or unit == "1" else f"{value!r} {unit}"
+        passport = self.material if isinstance(self.material, Passport) else None
+        if passport is not None:
+            # a published material stands in for the object
+            said["material"] = MATERIALS[0]
+        if self.case is not None:
+            said |= {"case": str(self.case), "thickness": None, "speed": None}
         else:
-            modulus = given["contact_modulus"]
-            solid = self._solid_in_si(modulus, caller)
-        pad = Pad(
-            half_width=given["half_width"],
-            contact_modulus=modulus,
-            work_of_adhesion=given["work_of_adhesion"],
-            strength=given["strength"],
-            base=Frictionless() if self.bonded is None else Bonded(poisson_ratio=self.bonded),
-        )
-        return pad, solid
-
-    def _solid_in_si(self, contact_modulus: float, caller: Caller) -> "Material":
-        from viscotack.model.materials import Elastic
-        from viscotack.model.problem.units import material_in_si
-
-        solid, unit = self.solid(caller, "sls")
-        if isinstance(solid, Elastic) or unit != "1":
-            if self.tau0 is not None:
-                raise InputError("the material has its times; leave out tau0", field="tau0")
-            time = parse("1 s" if unit == "1" else f"1 {unit}", "s")
-        elif self.tau0 is None:
-            raise InputError("tau0 is missing, the time of the material", field="tau0")
-        else:
-            time = self.tau0
-        # only times and ratios of it are used
-        return material_in_si(solid, contact_modulus, time, 0.0)
-
-
-def _pad_of(problem: Any) -> "Pad":
-    from viscotack.theory.punch import Pad
-
-    return Pad(
-        half_width=problem.geometry.half_width,
-        contact_modulus=problem.material.contact_modulus,
-        work_of_adhesion=problem.traction.work_of_adhesion,
-        strength=problem.traction.strength,
-        base=problem.body.base,
-    )
+            # the start does not matter to the theory, nor thickness and speed of a wanted stress
+            usual = {"thickness": said["half_width"], "speed": "1 m/s", "preload": "0 m"}
+            said = usual | {name: value for name, value in said.items() if value is not None}
+        problem: Any = statement(said, _PUNCH, caller).problem
+        if problem.scales() is None:
+            raise InputError(f"{self.case} states no units; this command needs a flat punch in SI")
+        return problem if passport is None else replace(problem, material=passport.material)
 
 
 def _boundaries(pad: "Pad", law: "CrackLaw") -> dict[str, Any]:
