@@ -197,7 +197,7 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
         found["notes"].append(f"surrogate: {answer.why}")
     # a surrogate may withhold work and curve at this speed, and state the force at all of them
     if curve is not None or answer.method.startswith("surrogate"):
-        found["speeds"] = _punch_speeds(problem, confidence) if punch else _speeds(answer)
+        found["speeds"] = _speeds(answer)
 
 
 def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
@@ -229,47 +229,56 @@ def _band(interval: tuple[float, float], scale: float, unit: str, confidence: fl
     return words if confidence is None else f"{words} in {100 * confidence:.3g} % of cases"
 
 
+def by_speed(speed: Any, forces: Any, problem: Problem, words: str) -> dict[str, Any]:
+    """Return the curve of force by speed: forces, and the ends of their intervals, in SI."""
+    force, low, high = map(drawn, forces)
+    return {
+        "speed": drawn(speed),
+        "force": force,
+        "low": low,
+        "high": high,
+        "here": problem.protocol.speed,
+        "words": words,
+    }
+
+
 def _speeds(answer: Prediction) -> dict[str, Any]:
-    """Return the pull-off force at other speeds, within the range of the surrogate."""
+    """Return the pull-off at other speeds, within the range of the surrogate."""
     problem, confidence = answer.problem, answer.confidence
+    assert isinstance(problem, Problem) and confidence is not None
     groups, scales = problem.groups(), problem.scales()
-    assert isinstance(problem, Problem) and scales is not None and confidence is not None
-    assert isinstance(groups, Groups) and groups.rate is not None
+    punch = isinstance(problem.geometry, FlatPunch)
+    assert groups.rate is not None
     least, most = groups.rate * 10**-_DECADES, groups.rate * 10**_DECADES
-    if answer.inside and answer.method == SURROGATE:
-        assert isinstance(groups.material, RetardationPowerLaw)
-        low, high = store.shipped().limits["rate"]
+    if punch or answer.inside and answer.method == SURROGATE:
+        inputs = inputs_of(groups) if punch else _inputs(groups)
+        low, high = (LOW[RATE], HIGH[RATE]) if punch else store.shipped().limits["rate"]
         rates = np.geomspace(max(low * 1.0001, least), min(high / 1.0001, most), _SPEEDS)
-        forces = _of_power_law(groups, groups.material.exponent, rates, confidence)
+        columns = {name: np.full(_SPEEDS, value) for name, value in inputs.items()}
+        found = predict_table(columns | {"rate": rates}, confidence=confidence)
+        name = pulled(problem.outputs)
+        forces = [found[f"{name}{end}"] for end in ("", "_low", "_high")]
     else:
         rates, forces = _one_by_one(groups, np.geomspace(least, most, _FEW), confidence)
-    value, below, above = (drawn(each * scales.force) for each in forces)
+    load = scales.stress if punch else scales.force
+    speeds = rates * scales.length / scales.time
+    return by_speed(speeds, [each * load for each in forces], problem, "surrogate")
+
+
+def _inputs(groups: Groups) -> dict[str, float]:
+    """Return the inputs of the surrogate of power laws."""
+    assert isinstance(groups.material, RetardationPowerLaw)
+    (start,) = vars(groups.start).values()
     return {
-        "speed": drawn(rates * scales.length / scales.time),
-        "force": value,
-        "low": below,
-        "high": above,
-        "here": problem.protocol.speed,
-        "words": "surrogate",
-    }
-
-
-def _of_power_law(groups: Groups, exponent: float, rates: Array, confidence: float) -> list[Array]:
-    """Return forces at some rates and the ends of their intervals."""
-    (field,) = vars(groups.start).values()
-    same = {
         "tabor": groups.tabor,
         "modulus_ratio": groups.modulus_ratio,
-        "exponent": exponent,
-        _INPUTS[type(groups.start)]: field,  # type: ignore[index]
+        "exponent": groups.material.exponent,
+        _INPUTS[type(groups.start)]: start,  # type: ignore[index]
     }
-    columns = {name: np.full(_SPEEDS, value) for name, value in same.items()} | {"rate": rates}
-    answers = predict_table(columns, confidence=confidence)
-    return [answers[f"pull_off_force{end}"] for end in ("", "_low", "_high")]
 
 
 def _one_by_one(groups: Groups, rates: Array, confidence: float) -> tuple[Array, Array]:
-    """Return the rates at which other surrogates answer, and the same forces."""
+    """Return the rates at which other surrogates answer, and the forces with their intervals."""
     found = []
     for rate in rates.tolist():
         try:
@@ -279,28 +288,6 @@ def _one_by_one(groups: Groups, rates: Array, confidence: float) -> tuple[Array,
         found.append((rate, one.pull_off_force, *one.interval))
     columns = np.array(found).T
     return columns[0], columns[1:]
-
-
-def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
-    """Return the pull-off stress at other speeds, within the range of the surrogate."""
-    groups, speed = problem.groups(), problem.protocol.speed
-    assert speed is not None
-    here = inputs_of(groups)
-    low, high = LOW[RATE] * 1.0001, HIGH[RATE] / 1.0001
-    least, most = here["rate"] * 10**-_DECADES, here["rate"] * 10**_DECADES
-    rates = np.geomspace(max(low, least), min(high, most), _SPEEDS)
-    columns = {name: np.full(_SPEEDS, value) for name, value in here.items()} | {"rate": rates}
-    answers = predict_table(columns, confidence=confidence)
-    names = ("pull_off_stress", "pull_off_stress_low", "pull_off_stress_high")
-    value, below, above = (drawn(answers[name] * problem.scales().stress) for name in names)
-    return {
-        "speed": drawn(rates * speed / here["rate"]),
-        "force": value,
-        "low": below,
-        "high": above,
-        "here": speed,
-        "words": "surrogate",
-    }
 
 
 def _pad(problem: Problem, found: dict[str, Any]) -> None:
@@ -334,14 +321,8 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
     law = pad.crack_law("persson-brener", material=problem.material)
     forces = np.asarray(unloading.pull_off(speeds, pad, law, thickness=body.thickness).stress)
     # 1 % low to 19 % high of 35 simulations (viscotack.theory.punch.unloading)
-    found["speeds"] = {
-        "speed": drawn(speeds),
-        "force": drawn(forces),
-        "low": drawn(forces / 1.19),
-        "high": drawn(forces / 0.99),
-        "here": speed,
-        "words": "edges that are viscoelastic cracks",
-    }
+    band = forces, forces / 1.19, forces / 0.99
+    found["speeds"] = by_speed(speeds, band, problem, "edges that are viscoelastic cracks")
 
 
 def _pressed(problem: Problem, stiffness: float) -> float:
