@@ -118,6 +118,8 @@ def agree(question, found):
             continue
         assert other.record == first.record, f"{door}: {question}: {other} and {first}"
         assert other.refused == first.refused, f"{door}: {question}: {other} and {first}"
+        if door == "HTTP":
+            assert other.field == first.field.replace("-", "_"), f"{question}: {other}"
 
 
 @pytest.mark.parametrize("word", list(ASKED))

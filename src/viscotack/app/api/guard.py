@@ -106,4 +106,4 @@ def _entered(request: Request, rules: Rules) -> Response | None:
 
 def _said(status: int, words: str) -> Response:
     headers = {"www-authenticate": "Bearer"} if status == 401 else None
-    return JSONResponse({"error": words}, status, headers)
+    return JSONResponse({"error": words, "field": ""}, status, headers)

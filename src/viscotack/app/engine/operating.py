@@ -44,7 +44,7 @@ def run_request(
         beside = _beside(type(asked), answer, wanted)
         return _without(shown, _record(answer) | beside)
     except InputError as error:
-        raise type(error)(_without(shown, str(error))) from None
+        raise type(error)(_without(shown, str(error)), field=error.field) from None
     except FileNotFoundError as error:
         raise InputError(f"there is no file {_without(shown, str(error.filename))}") from None
     except OSError as error:
