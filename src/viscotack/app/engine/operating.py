@@ -63,7 +63,7 @@ def _without(folder: str, value: Any) -> Any:
 
 
 def _record(answer: Answer) -> dict[str, Any]:
-    found = plain(answer.record())
+    found = answer.record()
     return found if isinstance(found, dict) else {"answer": found}
 
 

@@ -82,7 +82,7 @@ class OfArray(Request):
         record |= {} if left is None else {"preload_after_hold_N": left}
         return Answer(
             found,
-            record=lambda: record | {"pads": pads},
+            data=lambda: record | {"pads": pads},
             words=lambda: _shown(found, held, record),
             files={"csv": rows_as_csv(curve), "pads": rows_as_csv(pads)},
             pictures={"plot": lambda: draw_array(array, found, load=load)},
@@ -99,8 +99,8 @@ def _pads(array: Any, found: Any) -> list[dict[str, Any]]:
             "y_m": y,
             "height_m": array.heights[i],
             "work_factor": array.works[i],
-            "start_force_N": float(found.start_force[i]),
-            "released_at_m": float(found.released[i]) if i in order else None,
+            "start_force_N": found.start_force[i],
+            "released_at_m": found.released[i] if i in order else None,
             "order": order.get(i),
         }
         for i, (x, y) in enumerate(array.positions)
@@ -112,7 +112,7 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
     record: dict[str, Any] = {
         "count": len(array.positions),
         "pull_off_force_N": found.pull_off_force,
-        "interval_N": list(found.interval),
+        "interval_N": found.interval,
         "work_of_separation_J": found.work,
         "lost_in_jumps_J": found.lost,
         "load_sharing": found.load_sharing,
@@ -126,12 +126,12 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
             "holds": held.holds,
             "payload_kg": held.payload,
             "lasting_payload_kg": held.lasting,
-            "time_to_detachment_s": held.time if isfinite(held.time) else None,
+            "time_to_detachment_s": held.time,
             "release_time_s": held.release_time,
             "why_time": held.why,
         }
     if part is not None:
-        record |= {"yield": part.share, "yield_interval": list(part.interval)}
+        record |= {"yield": part.share, "yield_interval": part.interval}
     return record
 
 

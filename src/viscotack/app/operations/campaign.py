@@ -71,7 +71,7 @@ class Inputs(Request):
             f"{one['unit']:<10} {one['words']}"
             for path, one in record.items()
         ]
-        return Answer(found, record=lambda: record, words=lambda: "\n".join(lines))
+        return Answer(found, data=lambda: record, words=lambda: "\n".join(lines))
 
 
 class DescribePlan(Request):
@@ -119,7 +119,7 @@ class DescribePlan(Request):
         ]
         return Answer(
             plan,
-            record=lambda: record,
+            data=lambda: record,
             words=lambda: "\n".join(lines),
             files={"csv": lambda target: export(rows, target)},
         )
@@ -194,7 +194,7 @@ class Run(Settings):
             why = str(error) or "interrupted"
             return Answer(
                 error,
-                record=lambda: {"stopped": True, "reason": why},
+                data=lambda: {"stopped": True, "reason": why},
                 words=lambda: "",
                 notes=(f"viscotack: {why}; the stored rows in {out} are safe",),
                 status=_STOPPED,
@@ -327,4 +327,4 @@ def _standing(
     words += lines or []
     if left:
         words.append(f"  resume with: viscotack campaign run --out {folder}")
-    return Answer(now, record=lambda: record | more, words=lambda: "\n".join(words))
+    return Answer(now, data=lambda: record | more, words=lambda: "\n".join(words))

@@ -126,7 +126,7 @@ class Control(Request):
             files["ticks"] = rows_as_csv(rows_of(read(released, *names)))
         return Answer(
             table if released is None else (table, released),
-            record=lambda: _record(table, released, speed),
+            data=lambda: _record(table, released, speed),
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
             notes=stated.notes,
@@ -158,6 +158,6 @@ def _record(
             "contact_speed_m_per_s": speed,
             "pull_off_force_N": released.pull_off_force,
             "miss": released.miss,
-            "time_s": float(released.time[-1]),
+            "time_s": released.time[-1],
         }
     return found

@@ -74,7 +74,7 @@ class OfDesign(Request):
         warned = [_cautions(one.choice, stated) for one in found.candidates]
         return Answer(
             found,
-            record=lambda: _record(found, rows, front) | {"cautions": warned},
+            data=lambda: _record(found, rows, front) | {"cautions": warned},
             words=lambda: _shown(found, rows, warned),
             files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
             pictures={
@@ -131,8 +131,8 @@ def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]])
         "meets": found.meets,
         "designs": rows,
         "front": front,
-        "binding": list(found.binding),
-        "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
+        "binding": found.binding,
+        "elasticities": found.elasticities,
         "limits": [
             read(each, "target", "wanted", "reach", "cause", "excludes", "why")
             for each in found.limits
@@ -177,7 +177,7 @@ def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> d
     return {
         "words": words,
         "designs": rows,
-        "binding": list(found.binding),
+        "binding": found.binding,
         "designs_of_the_front": len(found.front) or None,
         "d ln P/d ln x": {f"of {name}": dict(each) for name, each in found.elasticities.items()},
         "cautions": [*warned, OF_METHOD],

@@ -53,7 +53,7 @@ class ExportContact(Request):
         text = reduced_header(contact, self.name)
         return Answer(
             contact,
-            record=lambda: _record(contact, text),
+            data=lambda: _record(contact, text),
             words=lambda: _words(contact) if "output" in caller.wants else text.rstrip("\n"),
             files={"output": as_text(lambda: text)},
             notes=stated.notes,

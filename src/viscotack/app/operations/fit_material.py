@@ -90,7 +90,7 @@ class FitMaterial(Dma, Shifting):
         words = "\n".join([report.words(), *shifted])
         return Answer(
             (report, passport),
-            record=lambda: fit_record(report, passport),
+            data=lambda: fit_record(report, passport),
             words=lambda: words,
             files=(
                 {}
@@ -158,7 +158,7 @@ def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
     issued = passport is not None
     return {
         "model": report.model,
-        "notes": list(report.observed.source.notes),
+        "notes": report.observed.source.notes,
         "table": material_table(report.material) if issued else None,
         "passport": passport_text(passport) if issued else None,
         "fit": drawn.fit(report),

@@ -121,7 +121,7 @@ class Forecast(Wish):
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
-            record=lambda: _record(found.fit, forecast, rows),
+            data=lambda: _record(found.fit, forecast, rows),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
             notes=refusals(found.survey),
@@ -157,7 +157,7 @@ class Report(Wish):
         found, forecast = _forecast(self, caller, IdentifyRates)
         return Answer(
             (found, forecast),
-            record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
+            data=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
             words=lambda: {"words": [*found.fit.words, *forecast.words]},
             files={"output": as_text(lambda: page(found, forecast))},
             notes=refusals(found.survey),

@@ -83,7 +83,7 @@ class IdentifySlow(Rig):
         )
         return Answer(
             fit,
-            record=lambda: slow_record(fit),
+            data=lambda: slow_record(fit),
             words=lambda: _slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
             drawn=lambda: {
@@ -320,7 +320,7 @@ def _answer(
     fit = found.fit
     return Answer(
         found,
-        record=lambda: record_of(fit),
+        data=lambda: record_of(fit),
         words=lambda: {n: x for n, x in record_of(fit).items() if n not in _SAID},
         files={"output": _written(found, caller)},
         pictures={

@@ -64,7 +64,7 @@ class IdentifyApproach(Rig):
             raise InputError("; ".join(dict.fromkeys(refused)), field="files")
         return Answer(
             fits,
-            record=lambda: {"approaches": [_record(fit) for fit in fits]},
+            data=lambda: {"approaches": [_record(fit) for fit in fits]},
             words=lambda: "\n".join(
                 f"{cycle + 1}: {line}" if first else f"   {line}"
                 for cycle, fit in enumerate(fits)
@@ -85,7 +85,7 @@ def _record(fit: Any) -> dict[str, Any]:
         "attraction_N": fit.attraction,
         "noise_N": fit.noise,
         "jump_in_force_N": fit.jump_in_force,
-        "works_of_adhesion_J_m2": list(fit.works),
+        "works_of_adhesion_J_m2": fit.works,
         "step_m": fit.step,
         "samples_during_jump": fit.during,
         "words": list(fit.words),

@@ -61,12 +61,12 @@ class IdentifyCurves(Rig):
         rows, means = [_curve(fit) for fit in fits], [_group(group) for group in groups]
         return Answer(
             groups,
-            record=lambda: {
+            data=lambda: {
                 "model": self.model,
                 "level": self.level,
                 "curves": rows,
                 "repeats": means,
-                "refused": list(refused),
+                "refused": refused,
             },
             words=lambda: {"model": self.model, "repeats": means},
             files={"csv": rows_as_csv(rows), "repeats": rows_as_csv(means)},

@@ -117,7 +117,7 @@ class NextTest(Request):
         what = "the forecast" if wanted else "ln(work) and ln(range)"
         return Answer(
             found,
-            record=lambda: {
+            data=lambda: {
                 "now": found.now,
                 "noise": found.noise,
                 "tests": rows,

@@ -240,7 +240,7 @@ class ExportMaterial(Request):
         low, high = form.frequencies
         return Answer(
             text,
-            record=lambda: {
+            data=lambda: {
                 "name": passport.name,
                 "program": self.to,
                 "text": text,
@@ -261,7 +261,7 @@ def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:
     written = caller is not None and "output" in caller.wants
     return Answer(
         passport,
-        record=lambda: passport_record(passport),
+        data=lambda: passport_record(passport),
         words=lambda: "" if written else in_words(passport),
     )
 

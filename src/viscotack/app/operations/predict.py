@@ -157,7 +157,7 @@ class Predict(Request):
             record |= _comparison(found, record, result)
         return Answer(
             found,
-            record=lambda: record,
+            data=lambda: record,
             words=lambda: _shown(found, record, self.why),
             units=units_of(found.problem.groups().outputs),
             files={"curve": lambda target: write_table(_curve(found), target)},
@@ -239,7 +239,7 @@ class Advise(Request):
         sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(
             advice,
-            record=lambda: _advised(advice, sentences, warned),
+            data=lambda: _advised(advice, sentences, warned),
             words=lambda: {"sentences": sentences},
             notes=stated.notes,
         )
@@ -250,7 +250,7 @@ def _advised(
 ) -> dict[str, Any]:
     """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
     record: dict[str, Any] = asdict(advice)
-    record |= {"sentences": list(sentences), "cautions": list(warned)}
+    record |= {"sentences": sentences, "cautions": warned}
     scales = record.pop("length_scale"), record.pop("speed_scale")
     if (contact := record.pop("contact")) is not None:
         del contact["receding"], contact["start_radius"], contact["edge_speed"]

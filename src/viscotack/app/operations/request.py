@@ -353,9 +353,8 @@ class Answer:
     ----------
     found : object
         The result as a Python object.
-    record : callable
-        Returns plain data, numbers in SI with the unit in the name, as printed by ``--json`` and
-        returned over HTTP.
+    data : callable
+        Returns the record: numbers in SI with the unit in the name.
     words : callable, optional
         Returns text for the terminal, or the part of the record that is shown there; default:
         all of it.
@@ -374,7 +373,7 @@ class Answer:
     """
 
     found: Any
-    record: Callable[[], Any]
+    data: Callable[[], Any]
     words: Callable[[], Any] | None = None
     units: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, Callable[["Target"], None]] = field(default_factory=dict)
@@ -383,12 +382,19 @@ class Answer:
     notes: tuple[str, ...] = ()
     status: int = 0
 
+    def record(self) -> Any:
+        """Return the record as plain data, as printed by ``--json`` and returned over HTTP."""
+        from .parts.json_data import plain
+
+        return plain(self.data())
+
     def __str__(self) -> str:
         """Return the text for the terminal."""
+        from .parts.json_data import plain
         from .parts.record_words import record_words
 
-        shown = self.record() if self.words is None else self.words()
-        return shown if isinstance(shown, str) else record_words(shown, self.units)
+        shown = self.data() if self.words is None else self.words()
+        return shown if isinstance(shown, str) else record_words(plain(shown), self.units)
 
 
 def harmless_name(name: str) -> str:

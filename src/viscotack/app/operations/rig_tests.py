@@ -90,7 +90,7 @@ class ReadTests(Rig, ShiftLaw):
         sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
         return Answer(
             found,
-            record=lambda: tests_record(found, table, self.radius, law),
+            data=lambda: tests_record(found, table, self.radius, law),
             words=lambda: _shown(tests_record(found, table, self.radius, law)),
             files={
                 "csv": rows_as_csv(rows),

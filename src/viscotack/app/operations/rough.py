@@ -110,7 +110,7 @@ class OfRough(Request):
         }
         return Answer(
             found,
-            record=lambda: found.summary | about,
+            data=lambda: found.summary | about,
             words=lambda: _shown(found, about),
             files={
                 "csv": rows_as_csv(found.rows()),
@@ -147,7 +147,7 @@ class OfRough(Request):
         )
         return Answer(
             found,
-            record=lambda: found.summary,
+            data=lambda: found.summary,
             files={"csv": rows_as_csv(found.rows())},
             pictures={"plot": lambda: draw_superposition(problem, found)},
             notes=(*problem.surface.notes, *((found.why,) if found.why else ())),

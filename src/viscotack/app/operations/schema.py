@@ -26,6 +26,6 @@ class Schema(Request):
         found = schema(caller.also)
         return Answer(
             found,
-            record=lambda: found,
+            data=lambda: found,
             words=lambda: words(caller.also) if self.words else json.dumps(found, indent=2),
         )

@@ -1,6 +1,6 @@
 """The operations ``simulate`` and ``show``: simulate a contact, and show a saved result."""
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -219,10 +219,10 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
         files["cycles"] = lambda target: write_cycles(result, target)
     found = summary(result, also)
     if result.sensitivities is not None:
-        found["sensitivities"] = asdict(result.sensitivities)
+        found["sensitivities"] = result.sensitivities
     return Answer(
         result,
-        record=lambda: found,
+        data=lambda: found,
         words=lambda: _shown(result, found),
         units=units_of(kind) | {own.name: kind.units[own.measure].text for own in also},
         files=files,

@@ -82,7 +82,7 @@ class Sweep(Request):
         failed = sum(bool(row["reason"]) for row in rows if row["inputs"] is not None)
         return Answer(
             rows,
-            record=lambda: {"rows": rows, "failed": failed},
+            data=lambda: {"rows": rows, "failed": failed},
             words=lambda: _shown(changes, rows, failed),
             units={} if rough else units_of(stated.problem.outputs),
             files={"csv": rows_as_csv(_flat(cases, rows))},

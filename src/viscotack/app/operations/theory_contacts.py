@@ -251,7 +251,7 @@ class OfCrack(Request):
         record = summary(found)
         return Answer(
             found,
-            record=lambda: record,
+            data=lambda: record,
             files={"curve": as_text(lambda: _table(found))},
             pictures={"plot": lambda: _drawn(found)},
             notes=stated.notes,

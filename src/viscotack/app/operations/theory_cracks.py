@@ -62,7 +62,7 @@ class _OfTheory(Reduced):
         columns = {"speed": v} | found
         return closed_form(
             columns,
-            {name: values.tolist() for name, values in columns.items()},
+            columns,
             (v, np.stack(list(found.values()), axis=-1)),
             (f"speed [length of the theory / {unit}]", "amplification"),
             logarithmic=True,
@@ -243,7 +243,7 @@ def _without_unit(speed: Speed, units: tuple[float, float] | None) -> float:
 def _columns(
     crack: "SteadyCrack", v: np.ndarray, units: tuple[float, float] | None, strength_ratio: float
 ) -> tuple[dict[str, Any], np.ndarray]:
-    """Return the table, columns of lists, and the curves that are drawn."""
+    """Return the columns of the table, and the curves that are drawn."""
     from viscotack.model.traction import grows
     from viscotack.theory import SteadyCrack
     from viscotack.theory.crack.steady import compared
@@ -269,10 +269,7 @@ def _columns(
     if units is not None:
         table |= {"speed_m_per_s": v * units[1], "zone_length_m": zone * units[0]}
     table |= {f"{name}_off": values for name, values in off.items()}
-    listed = {
-        name: [None if np.isnan(x) else float(x) for x in values] for name, values in table.items()
-    }
-    return listed, np.stack([gamma, *(_drawn(found, name, v) for name in _THEORIES[:2])], axis=-1)
+    return table, np.stack([gamma, *(_drawn(found, name, v) for name in _THEORIES[:2])], axis=-1)
 
 
 def _drawn(found: "Comparison", name: str, v: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 from viscotack.errors import InputError
 
 from .flags import FLAGS
+from .parts.record_words import read
 from .parts.solid import Reduced
 from .request import (
     Answer,
@@ -98,10 +99,13 @@ class OfPad(Reduced):
             crack = pad.crack_law(self.theory, material=solid)
             numbers = _boundaries(pad, crack) | _asked(pad, crack, wanted)
             regimes = _map(pad, crack) if self.map or "plot" in caller.wants else None
-        record = numbers | ({"map": _rows(regimes)} if self.map and regimes else {})
+        record = dict(numbers)
+        if self.map and regimes:
+            names = ("thickness_m", "speed_m_per_s", "regime")
+            record["map"] = read(regimes, *names) | {"pull_off_stress_Pa": regimes.stress}
         return Answer(
             record,
-            record=lambda: record,
+            data=lambda: record,
             words=lambda: numbers,
             pictures={"plot": lambda: draw_regimes(regimes or _map(pad, crack))},
         )
@@ -182,7 +186,6 @@ def _asked(pad: "Pad", law: "CrackLaw", wanted: Mapping[str, float]) -> dict[str
     state = punch.pull_off(speed, pad, law, thickness=b)
     slow = float(pad.elastic_stress(b))
     fast = slow / law.material.modulus_ratio**0.5
-    running = np.isfinite(state.crack_speed)
     return {
         "regime": str(found.regime[0, 0]),
         "pull_off_stress_Pa": state.stress,
@@ -190,7 +193,7 @@ def _asked(pad: "Pad", law: "CrackLaw", wanted: Mapping[str, float]) -> dict[str
         "fastest_pull_off_stress_Pa": min(fast, pad.strength),
         "depth_at_pull_off_m": state.depth,
         "ligament_at_pull_off_m": state.ligament,
-        "crack_speed_at_pull_off_m_per_s": state.crack_speed if running else None,
+        "crack_speed_at_pull_off_m_per_s": state.crack_speed,
         "effective_surface_energy": state.amplification,
     }
 
@@ -208,12 +211,3 @@ def _map(pad: "Pad", law: "CrackLaw") -> "RegimeMap":
     speed = np.geomspace(slow, fast, _ROWS)
     thinnest = min(_THIN * float(_boundaries(pad, law)["cohesive_below_m"]), 0.1 * a)
     return punch.regime_map(np.geomspace(thinnest, _THICK * a, _ROWS), speed, pad, law)
-
-
-def _rows(found: "RegimeMap") -> dict[str, Any]:
-    return {
-        "thickness_m": found.thickness.tolist(),
-        "speed_m_per_s": found.speed.tolist(),
-        "regime": found.regime.tolist(),
-        "pull_off_stress_Pa": found.stress.tolist(),
-    }

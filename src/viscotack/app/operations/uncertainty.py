@@ -147,7 +147,7 @@ class OfUncertainty(Request):
         unit = force.unit.text if problem.scales() is None else force.unit.si
         return Answer(
             found,
-            record=lambda: _record(found, rows, unit),
+            data=lambda: _record(found, rows, unit),
             words=lambda: _shown(found, rows, force.words, unit),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_uncertainty(found)},
@@ -214,14 +214,14 @@ def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict
     return {
         "pull_off": found.pull_off_force,
         "median": found.median,
-        "interval": list(found.interval),
+        "interval": found.interval,
         "unit": unit,
         "confidence": found.confidence,
         "deviation": found.deviation,
         "inputs": rows,
         "index_error": found.index_error,
         "interpolation_error": found.interpolation_error,
-        "methods": dict(found.methods),
+        "methods": found.methods,
     }
 
 
@@ -240,5 +240,5 @@ def _shown(
             row | {name: f"{row[name]:.1%}" for name in ("first", "total")}
             for row in sorted(rows, key=lambda x: -x["total"])
         ],
-        "methods": dict(found.methods),
+        "methods": found.methods,
     }

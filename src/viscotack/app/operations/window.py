@@ -79,7 +79,7 @@ class OfWindow(Request):
         columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
         return Answer(
             tuple(maps) if stated.variants else maps[0],
-            record=lambda: {"cells": cells, "critical_speeds": critical},
+            data=lambda: {"cells": cells, "critical_speeds": critical},
             words=lambda: _shown(cells, critical),
             files={
                 "csv": rows_as_csv(cells, columns),
