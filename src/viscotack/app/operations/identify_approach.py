@@ -4,6 +4,7 @@ from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
+from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import solid_of
 from .request import Answer, Caller, named, number
@@ -65,11 +66,6 @@ class IdentifyApproach(Rig):
         return Answer(
             fits,
             data=lambda: {"approaches": [_record(fit) for fit in fits]},
-            words=lambda: "\n".join(
-                f"{cycle + 1}: {line}" if first else f"   {line}"
-                for cycle, fit in enumerate(fits)
-                for first, line in zip((True, *(False,) * len(fit.words)), fit.words, strict=False)
-            ),
             notes=(*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused))),
         )
 
@@ -77,16 +73,10 @@ class IdentifyApproach(Rig):
 def _record(fit: Any) -> dict[str, Any]:
     """Return the numbers of one approach."""
     interval = fit.equilibrium_gap
-    return {
-        "bound_m": fit.bound,
+    names = ("bound_m", "level", "attraction_N", "noise_N", "jump_in_force_N", "step_m", "words")
+    return read(fit, *names) | {
         "equilibrium_gap_m": fit.likely,
         "interval_m": None if interval is None else [interval.low, interval.high],
-        "level": fit.level,
-        "attraction_N": fit.attraction,
-        "noise_N": fit.noise,
-        "jump_in_force_N": fit.jump_in_force,
         "works_of_adhesion_J_m2": fit.works,
-        "step_m": fit.step,
         "samples_during_jump": fit.during,
-        "words": list(fit.words),
     }

@@ -1,7 +1,5 @@
 """The operations ``theory persson-brener``, ``greenwood`` and ``steady-crack``: moving cracks."""
 
-import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -9,7 +7,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.theory.crack.steady.comparison import THESIS_RATIO
-from viscotack.units import parse
+from viscotack.units import is_number, parse
 
 from .flags import LAW
 from .parts.closed_form import closed_form
@@ -136,21 +134,12 @@ class Greenwood(_OfTheory):
     word: ClassVar = "theory greenwood"
 
 
-@dataclass(frozen=True)
-class Speed:
-    """A crack speed: a pure number in the unit of the theory, or in m/s."""
-
-    value: float
-    in_si: bool = False
-
-
-def _speed(value: Any) -> Speed:
-    """Return a crack speed: a number without a unit is one of the theory."""
-    if isinstance(value, Speed):
-        return value
-    if not isinstance(value, str) or re.fullmatch(r"[-+0-9.eE]+", value.strip()):
-        return Speed(parse(value, "1"))
-    return Speed(parse(value, "m/s"), in_si=True)
+def _speed(value: Any) -> float | str:
+    """Return a crack speed: a pure number in the unit of the theory, or the text of one in m/s."""
+    if not isinstance(value, str) or is_number(value):
+        return parse(value, "1")
+    parse(value, "m/s")
+    return value
 
 
 def _scale(words: str, unit: str) -> Number:
@@ -224,20 +213,16 @@ class OfSteadyCrack(Scales):
         return closed_form(crack, record, (np.abs(v), curves), labels, logarithmic=True)
 
     def _speeds(self, crack: "SteadyCrack", units: tuple[float, float] | None) -> np.ndarray:
-        if self.speed:
-            return np.array([_without_unit(one, units) for one in self.speed])
-        if crack.largest == 1:
-            raise InputError(_STILL)
-        low, high = np.asarray(crack.speed(crack.largest ** np.array(_PARTS)))
-        return np.geomspace(low, high, _ROWS)
-
-
-def _without_unit(speed: Speed, units: tuple[float, float] | None) -> float:
-    if not speed.in_si:
-        return speed.value
-    if units is None:
-        raise InputError(f"speed {speed.value:g} m/s has a unit; it needs {', '.join(_SCALES)}")
-    return speed.value / units[1]
+        if not self.speed:
+            if crack.largest == 1:
+                raise InputError(_STILL)
+            low, high = np.asarray(crack.speed(crack.largest ** np.array(_PARTS)))
+            return np.geomspace(low, high, _ROWS)
+        in_si = [one for one in self.speed if isinstance(one, str)]
+        if in_si and units is None:
+            raise InputError(f"speed {in_si[0]} has a unit; it needs {quoted(_SCALES)}")
+        unit = 1.0 if units is None else units[1]
+        return np.array([parse(x, "m/s") / unit if x in in_si else x for x in self.speed])
 
 
 def _columns(
