@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
 from viscotack.errors import InputError
 
-from .parts.layer import BONDED, THICKNESS, body_of
+from .parts.layer import OnLayer
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
 from .request import Answer, Caller, Number, Output, named, number, option, picture, switch
@@ -144,7 +144,7 @@ class Identified:
     computed: Any = None
 
 
-class IdentifyRates(Series):
+class IdentifyRates(Series, OnLayer):
     """Identify work of adhesion and range of attraction from pull-offs at several speeds.
 
     The steady-crack contact model is fitted to the true speed and pull-off force of every cycle;
@@ -173,8 +173,6 @@ class IdentifyRates(Series):
     )
 
     material: Solid
-    thickness: Annotated[float | None, THICKNESS] = None
-    bonded: Annotated[float | None, BONDED] = None
     temperature: float | None = number(
         'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
         "passport.",
@@ -199,10 +197,6 @@ class IdentifyRates(Series):
     time_limit: HowLong = None
     title: str = option("Title of the report.", default="")
     notes: str = option("Notes for the report.", default="")
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        body_of(self.thickness, self.bonded)
 
     def identified(self, caller: Caller, kept: Path | None = None) -> Identified:
         """Read the files and fit the interface.
@@ -236,7 +230,7 @@ class IdentifyRates(Series):
         series = series_of(
             found,
             solid,
-            body=body_of(self.thickness, self.bonded),
+            body=self.body,
             range_bound=bound,
             **self.given,
             **{name: getattr(self, name) for name in names},

@@ -7,7 +7,7 @@ import numpy as np
 from viscotack.errors import InputError
 
 from .parts.closed_form import closed_form
-from .parts.layer import BONDED, THICKNESS, body_of
+from .parts.layer import OnLayer
 from .parts.tables import as_text
 from .request import Answer, Caller, Number, Request, contact, csv_file, number, picture, quoted
 
@@ -21,7 +21,7 @@ _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0)
 _WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0)
 
 
-class Jkr(Request):
+class Jkr(OnLayer):
     """Detachment of an elastic sphere, forces of short range (JKR), from a half-space or a film.
 
     Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
@@ -34,12 +34,6 @@ class Jkr(Request):
     radius: Annotated[float, _RADIUS]
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
-    thickness: Annotated[float | None, THICKNESS] = None
-    bonded: Annotated[float | None, BONDED] = None
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
@@ -72,7 +66,7 @@ class Jkr(Request):
         from viscotack.theory import film
         from viscotack.theory.elastic import relaxed
 
-        body = body_of(self.thickness, self.bonded)
+        body = self.body
         assert isinstance(body, Layer), "it has a thickness"
         solid: Any = {
             "shape": Sphere(self.radius),
@@ -100,7 +94,7 @@ class Jkr(Request):
         return closed_form(end, record, (depth(a), force(a)), ("depth [m]", "force [N]"))
 
 
-class OfDisc(Request):
+class OfDisc(OnLayer):
     """Detachment of a disc, the flat end of a cylinder, from a half-space or a film (Kendall).
 
     Example: viscotack theory disc --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
@@ -116,19 +110,13 @@ class OfDisc(Request):
     strength: float | None = number(
         'Of the interface, "50 kPa"; its force limits that of Kendall.', "Pa", above=0
     )
-    thickness: Annotated[float | None, THICKNESS] = None
-    bonded: Annotated[float | None, BONDED] = None
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
         from viscotack.theory import disc, indenter
         from viscotack.theory.elastic.on_layer import LARGEST as WIDEST
 
-        a, E, body = self.radius, self.contact_modulus, body_of(self.thickness, self.bonded)
+        a, E, body = self.radius, self.contact_modulus, self.body
         solid: Any = {"contact_modulus": E, "work_of_adhesion": self.work_of_adhesion}
         limits: Any = {**solid, "strength": self.strength, "body": body}
         force = disc.pull_off_force(contact_radius=a, **limits)

@@ -70,7 +70,7 @@ class _OfTheory(Reduced):
         from viscotack.theory.crack.law import THEORIES
 
         law: Any = THEORIES[self.word.removeprefix("theory ")]
-        solid, _ = self.solid(caller)
+        solid = self.solid(caller)
         if self.speed:
             v = np.array(self.speed)
         elif solid.modulus_ratio < 1:
@@ -202,7 +202,7 @@ class OfSteadyCrack(Scales):
         from viscotack.theory import SteadyCrack
 
         given = self.given
-        solid, _ = self.solid(caller, "power-law" if "exponent" in given else "sls")
+        solid = self.solid(caller, "power-law" if "exponent" in given else "sls")
         crack = SteadyCrack(
             solid, law_from_words(self.law or LennardJones.word, beside=caller.file)
         )
