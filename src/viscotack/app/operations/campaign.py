@@ -66,12 +66,8 @@ class Inputs(Request):
             entry.path: {"value": entry.value, "unit": entry.unit, "words": entry.card.words}
             for entry in found.values()
         }
-        lines = [
-            f"{path:<30}{'' if one['value'] is None else format(one['value'], '.6g'):>14} "
-            f"{one['unit']:<10} {one['words']}"
-            for path, one in record.items()
-        ]
-        return Answer(found, data=lambda: record, words=lambda: "\n".join(lines))
+        rows = [{"name": path} | one for path, one in record.items()]
+        return Answer(found, data=lambda: record, words=lambda: {"numbers": rows})
 
 
 class DescribePlan(Request):
@@ -109,20 +105,7 @@ class DescribePlan(Request):
             "memory_limit_bytes": limits.memory_limit,
             "ranges": ranges,
         }
-        lines = [
-            f"{len(rows)} cases of kind {plan.kind.name}; {plan.rejected} points without a contact "
-            f"are skipped, {plan.repeated} repeated cases are run once",
-            *([f"  first skipped point: {plan.refusal}"] if plan.rejected else []),
-            *(f"  {name:<24}{low:>12.5g} to {high:.5g}" for name, (low, high) in ranges.items()),
-            f"  to {limits.until}, accuracy {limits.accuracy:g}; limits per case: "
-            f"{limits.time_limit:g} s, {limits.memory_limit / 1e6:g} MB",
-        ]
-        return Answer(
-            plan,
-            data=lambda: record,
-            words=lambda: "\n".join(lines),
-            files={"csv": lambda target: export(rows, target)},
-        )
+        return Answer(plan, data=lambda: record, files={"csv": lambda target: export(rows, target)})
 
 
 class Settings(Request):
@@ -237,8 +220,7 @@ class Status(Request):
             {"failure": kind, "reason": reason, "cases": count}
             for (kind, reason), count in store.reasons().most_common()
         ]
-        lines = [f"  {why['cases']:6d} {why['failure']}: {why['reason']}" for why in failures]
-        return _standing(folder, store, lines, failures=failures)
+        return _standing(folder, store, failures=failures)
 
 
 class Merge(Request):
@@ -310,21 +292,16 @@ def _folder(name: Path, caller: Caller) -> Path:
     return path
 
 
-def _standing(
-    folder: Path, of: "Progress | Store", lines: list[str] | None = None, **more: Any
-) -> Answer:
+def _standing(folder: Path, of: "Progress | Store", **more: Any) -> Answer:
     """Build the answer with the progress of a run, or of a stored campaign."""
     from viscotack.campaign import Progress
 
     now = of if isinstance(of, Progress) else Progress(*of.counts())
     left = now.cases - now.done - now.failed
     record = {"cases": now.cases, "done": now.done, "failed": now.failed, "left": left}
-    words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
     if now.elapsed_s:
-        record |= {"elapsed_s": now.elapsed_s, "cases_per_second": now.rate}
-        record |= {"stopped": now.stopped}
-        words.append(f"  {now.elapsed_s:.1f} s, {now.rate:.2f} cases/s")
-    words += lines or []
+        more |= {"elapsed_s": now.elapsed_s, "cases_per_second": now.rate, "stopped": now.stopped}
+    words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
     if left:
         words.append(f"  resume with: viscotack campaign run --out {folder}")
-    return Answer(now, data=lambda: record | more, words=lambda: "\n".join(words))
+    return Answer(now, data=lambda: record | more, words=lambda: {"words": words} | more)
