@@ -66,7 +66,10 @@ class Inputs(Request):
             entry.path: {"value": entry.value, "unit": entry.unit, "words": entry.card.words}
             for entry in found.values()
         }
-        rows = [{"name": path} | one for path, one in record.items()]
+        rows = [
+            {"name": each.path, "value": each.value, "unit": each.unit, "meaning": each.card.words}
+            for each in found.values()
+        ]
         return Answer(found, data=lambda: record, words=lambda: {"numbers": rows})
 
 
