@@ -2,7 +2,7 @@
 
 from typing import Any, ClassVar
 
-from .request import Answer, Caller, Output, Request, contact, option
+from .request import Answer, Caller, Request, contact, main_file, option
 
 
 class ExportContact(Request):
@@ -16,13 +16,7 @@ class ExportContact(Request):
 
     word: ClassVar = "export contact"
     outputs: ClassVar = (
-        Output(
-            "output",
-            "Write the header to this file; - is standard output.",
-            flags=("-o", "--output"),
-            usual="-",
-            endings=(".h",),
-        ),
+        main_file("Write the header to this file; - is standard output.", ".h", usual="-"),
     )
     takes_own: ClassVar = True
 

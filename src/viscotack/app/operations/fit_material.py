@@ -8,7 +8,7 @@ from viscotack.errors import InputError
 
 from .parts.dma import Dma
 from .parts.shifting import Shifting
-from .request import Answer, Caller, Output, file_name, number, option, picture, quoted
+from .request import Answer, Caller, file_name, main_file, number, option, picture, quoted
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport
@@ -37,12 +37,7 @@ class FitMaterial(Dma, Shifting):
 
     word: ClassVar = "material fit"
     outputs: ClassVar = (
-        Output(
-            "output",
-            "Write the passport to this file; - is standard output.",
-            flags=("-o", "--output"),
-            endings=(".toml",),
-        ),
+        main_file("Write the passport to this file; - is standard output.", ".toml"),
         picture(),
     )
 

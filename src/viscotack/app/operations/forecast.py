@@ -11,7 +11,7 @@ from viscotack.units import parse
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
 from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
-from .request import Answer, Caller, File, Output, Request, csv_file, number, picture, text
+from .request import Answer, Caller, File, Request, csv_file, main_file, number, picture, text
 from .simulate import HowLong
 
 _MOST = 50  # speeds between two ends
@@ -137,15 +137,7 @@ class Report(Wish):
     """
 
     word: ClassVar = "report"
-    outputs: ClassVar = (
-        Output(
-            "output",
-            "The page, FILE.html.",
-            flags=("-o", "--output"),
-            needed=True,
-            endings=(".html", ".htm"),
-        ),
-    )
+    outputs: ClassVar = (main_file("The page, FILE.html.", ".html", ".htm", needed=True),)
 
     time_limit: HowLong = None
 

@@ -11,7 +11,7 @@ from viscotack.errors import InputError
 from .parts.layer import OnLayer
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, Number, Output, named, number, option, picture, switch
+from .request import Answer, Caller, Number, main_file, named, number, option, picture, switch
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -161,12 +161,10 @@ class IdentifyRates(Series, OnLayer):
 
     word: ClassVar = "identify rates"
     outputs: ClassVar = (
-        Output(
-            "output",
+        main_file(
             "Write the study, for `viscotack forecast` and `viscotack report`.",
-            flags=("-o", "--output"),
+            ".toml",
             metavar="STUDY",
-            endings=(".toml",),
         ),
         picture(),
         picture("Draw the posterior of the interface.", "corner"),
@@ -266,13 +264,7 @@ class IdentifyEdge(Series):
 
     word: ClassVar = "identify edge"
     outputs: ClassVar = (
-        Output(
-            "output",
-            "Write the study, for `viscotack forecast`.",
-            flags=("-o", "--output"),
-            metavar="STUDY",
-            endings=(".toml",),
-        ),
+        main_file("Write the study, for `viscotack forecast`.", ".toml", metavar="STUDY"),
         picture(),
         picture("Draw the posterior of the law.", "corner"),
     )

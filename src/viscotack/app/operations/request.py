@@ -334,6 +334,11 @@ def csv_file(words: str = "Write a table.", name: str = "csv") -> Output:
     return Output(name, words, endings=(".csv", ".txt", ".dat"))
 
 
+def main_file(words: str, *endings: str, **more: Any) -> Output:
+    """Declare the file of ``-o``."""
+    return Output("output", words, flags=("-o", "--output"), endings=endings, **more)
+
+
 def picture(words: str = "Draw.", name: str = "plot") -> Output:
     """Declare a figure as output."""
     words = f"{words.removesuffix('.')} to a .png, .pdf or .svg file."
