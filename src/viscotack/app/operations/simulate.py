@@ -206,13 +206,6 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
     from .parts.running import drawn_of
 
     also, kind = known(caller.also).observables, result.problem.outputs
-    draw = {
-        "force": plot.draw_force,
-        "radius": plot.draw_radius,
-        "overview": plot.draw_overview,
-        "energy": plot.draw_energy,
-        "sensitivities": plot.draw_sensitivities,
-    }[plot_kind]
     stopped = result.outcome is Outcome.STOPPED
     files: dict[str, Any] = {"csv": lambda target: write_csv(result, target)}
     if not stopped:
@@ -226,7 +219,7 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
         words=lambda: _shown(result, found),
         units=units_of(kind) | {own.name: kind.units[own.measure].text for own in also},
         files=files,
-        pictures={"plot": lambda: draw(result)},
+        pictures={"plot": lambda: getattr(plot, f"draw_{plot_kind}")(result)},
         drawn=lambda: drawn_of(result),
         notes=(_not_met(result),) if result.accuracy_met is False and not stopped else (),
         status=int(stopped),

@@ -130,13 +130,7 @@ def _flat(
     cases: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]]
 ) -> list[dict[str, Any]]:
     """Return rows of the same columns, for a table: those of the cases, and the results."""
-    from viscotack.files.text import cell
-
     empty = dict.fromkeys(name for row in rows for name in row["outputs"] or ())
-    given = [
-        {cell(name): cell(x) if isinstance(x, str) else x for name, x in case.items()}
-        for case in cases
-    ]
     return [
         {
             **case,
@@ -144,10 +138,10 @@ def _flat(
             **empty,
             **(row["outputs"] or {}),
             **case,  # of a problem without dimensions they are among the numbers too
-            "reason": cell(row["reason"]),
+            "reason": row["reason"],
             "wall_time_s": row["wall_time_s"],
         }
-        for case, row in zip(given, rows, strict=True)
+        for case, row in zip(cases, rows, strict=True)
     ]
 
 

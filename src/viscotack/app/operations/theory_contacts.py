@@ -8,7 +8,8 @@ from viscotack.errors import InputError
 
 from .parts.closed_form import closed_form
 from .parts.layer import OnLayer
-from .parts.tables import as_text
+from .parts.record_words import read
+from .parts.tables import write_table
 from .request import Answer, Caller, Number, Request, contact, csv_file, number, picture, quoted
 
 if TYPE_CHECKING:
@@ -240,17 +241,14 @@ class OfCrack(Request):
         return Answer(
             found,
             data=lambda: record,
-            files={"curve": as_text(lambda: _table(found))},
+            files={"curve": lambda target: write_table(read(found, *_HISTORY), target)},
             pictures={"plot": lambda: _drawn(found)},
             notes=stated.notes,
         )
 
 
-def _table(found: "CrackContact") -> str:
-    names = ("time", "depth", "force", "contact_radius", "edge_speed", "amplification", "move")
-    rows = zip(*(getattr(found, name).tolist() for name in names), strict=True)
-    lines = [",".join(map(repr, row)) for row in rows]
-    return "\n".join([",".join(names), *lines]) + "\n"
+# Columns of the history.
+_HISTORY = ("time", "depth", "force", "contact_radius", "edge_speed", "amplification", "move")
 
 
 def _drawn(found: "CrackContact") -> "Figure":
