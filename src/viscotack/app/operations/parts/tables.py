@@ -23,7 +23,7 @@ def rows_as_csv(rows: Sequence[dict[str, Any]], columns: Sequence[str] = ()) -> 
 
     def write(target: "Target") -> None:
         names = columns or list(rows[0])
-        write_table({name: [row[name] for row in rows] for name in names}, target)
+        write_table({name: [row.get(name) for row in rows] for name in names}, target)
 
     return write
 
