@@ -159,8 +159,7 @@ def refusals(app: FastAPI) -> None:
 
     async def refused(request: Any, error: Exception) -> JSONResponse:
         status = next((s for kind, s in _STATUS.items() if isinstance(error, kind)), 422)
-        field = getattr(error, "field", "").replace("-", "_")
-        return _refused(status, str(error), field)
+        return _refused(status, str(error), getattr(error, "field", ""))
 
     async def malformed(request: Any, error: Exception) -> JSONResponse:
         assert isinstance(error, RequestValidationError)

@@ -254,7 +254,7 @@ class Engine:
             )
             job.close("done", answer=answer)
         except InputError as error:
-            job.field = error.field.replace("-", "_")
+            job.field = error.field
             job.close("refused", error=str(error))
         except Defect as error:
             job.close("failed", error=f"this is a defect of viscotack: {error}")

@@ -587,10 +587,10 @@ def quoted(names: Iterable[str]) -> str:
 
     Examples
     --------
-    >>> quoted(["modulus-ratio", "rate"])
+    >>> quoted(["modulus_ratio", "rate"])
     '`modulus_ratio`, `rate`'
     """
-    return ", ".join(f"`{name.replace('-', '_')}`" for name in names)
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def request_of(kind: type[R], given: Mapping[str, Any]) -> R:

@@ -51,7 +51,7 @@ class Reduced(Request):
         "sls, prony:FILE or a passport FILE.toml, as for simulate sphere.",
         metavar="MATERIAL",
     )
-    modulus_ratio: float | None = number(FLAGS["modulus-ratio"].words, above=0)
+    modulus_ratio: float | None = number(FLAGS["modulus_ratio"].words, above=0)
     exponent: float | None = number(FLAGS["exponent"].words, above=0)
 
     @property
@@ -74,8 +74,7 @@ class Reduced(Request):
                     f"{words.name} defines the whole material; leave out `{beside[0]}`"
                 )
             return words.material.reduced()
-        said = {name.replace("_", "-"): value for name, value in self.given.items()}
-        table = material_table(words, said, nouns=nouns)
+        table = material_table(words, self.given, nouns=nouns)
         if missing := [name for name in needs_of(words, nouns) if name not in self.given]:
             raise InputError(
                 f"{quoted(missing)} missing for the material {words}", field=missing[0]
