@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
+from .parts.record_words import read
 from .request import Answer, Caller, Request, csv_file, file_name, picture
 from .simulate import Accuracy, Limit
 
@@ -111,14 +112,11 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
     """Return the numbers of the answer."""
     record: dict[str, Any] = {
         "count": len(array.positions),
-        "pull_off_force_N": found.pull_off_force,
-        "interval_N": found.interval,
+        **read(found, "pull_off_force_N", "interval_N"),
         "work_of_separation_J": found.work,
         "lost_in_jumps_J": found.lost,
-        "load_sharing": found.load_sharing,
         "jumps": [{"travel_m": x, "pads": count} for x, count in found.jumps],
-        "method": found.method,
-        "why": found.why,
+        **read(found, "load_sharing", "method", "why"),
     }
     if held is not None:
         record |= {

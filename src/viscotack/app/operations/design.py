@@ -128,17 +128,13 @@ def _front_row(one: Any) -> dict[str, Any]:
 def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
     """Return the numbers of the answer."""
     return {
-        "meets": found.meets,
         "designs": rows,
         "front": front,
-        "binding": found.binding,
-        "elasticities": found.elasticities,
         "limits": [
             read(each, "target", "wanted", "reach", "cause", "excludes", "why")
             for each in found.limits
         ],
-        "predictions": found.predictions,
-        "tier": found.tier,
+        **read(found, "meets", "binding", "elasticities", "predictions", "tier"),
     }
 
 

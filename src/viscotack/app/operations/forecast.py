@@ -9,6 +9,7 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
+from .parts.record_words import read
 from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
 from .request import Answer, Caller, File, Request, csv_file, main_file, number, picture, text
@@ -185,10 +186,7 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
     return {
         **interface_record(fit),
         "describes_tests": not fit.misfit,
-        "level": forecast.level,
-        "preload_N": forecast.preload,
-        "temperature_K": forecast.temperature,
-        "dwell_s": forecast.dwell,
+        **read(forecast, "level", "preload_N", "temperature_K", "dwell_s"),
         "forecast": rows,
         "words": [*fit.words, *forecast.words],
     }

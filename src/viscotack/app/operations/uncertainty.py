@@ -10,6 +10,7 @@ from viscotack.units import is_number, readable
 
 from .flags import INDENTERS
 from .forecast import fitted
+from .parts.record_words import read
 from .parts.solid import passport_of
 from .request import (
     Answer,
@@ -211,18 +212,10 @@ _INTERFACES = 64
 
 def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict[str, Any]:
     """Return the numbers of the answer."""
-    return {
-        "pull_off": found.pull_off_force,
-        "median": found.median,
-        "interval": found.interval,
-        "unit": unit,
-        "confidence": found.confidence,
-        "deviation": found.deviation,
-        "inputs": rows,
-        "index_error": found.index_error,
-        "interpolation_error": found.interpolation_error,
-        "methods": found.methods,
-    }
+    names = ("median", "interval", "confidence", "deviation", "methods")
+    names += ("index_error", "interpolation_error")
+    about = {"pull_off": found.pull_off_force, "unit": unit, "inputs": rows}
+    return about | read(found, *names)
 
 
 def _shown(
