@@ -29,7 +29,8 @@ from viscotack.app.operations.request import (
 from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input
-from .running import carry_out, checked
+from .running import carry_out
+from .writing import checked
 
 _SETTINGS = {"max_content_width": 100}
 # Placeholders of numbers by unit.
