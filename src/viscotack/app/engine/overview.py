@@ -12,6 +12,7 @@ import numpy as np
 
 from viscotack.app.engine.state import State
 from viscotack.app.operations.parts.json_data import drawn, plain
+from viscotack.app.operations.theory_punch import pad_of
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Disc, FlatPunch, Layer
@@ -31,7 +32,7 @@ from viscotack.prediction.table import predict_table
 from viscotack.prediction.theories import forms_of
 from viscotack.prediction.tiers import AT_ONCE, TIERS
 from viscotack.theory.elastic.relaxed import contact, curve, ends
-from viscotack.theory.punch import Pad, unloading
+from viscotack.theory.punch import unloading
 from viscotack.units import readable_interval
 
 # Speeds of the picture of force against speed, in one table or one by one at a millisecond each,
@@ -294,18 +295,11 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
     """Add the elastic pad, and the pull-off stress of viscoelastic edges against the speed."""
     geometry, body, speed = problem.geometry, problem.body, problem.protocol.speed
     assert isinstance(geometry, FlatPunch) and isinstance(body, Layer)
-    pad = Pad(
-        half_width=geometry.half_width,
-        contact_modulus=problem.material.contact_modulus,
-        work_of_adhesion=problem.traction.work_of_adhesion,
-        strength=problem.traction.strength,
-        base=body.base,
-    )
-    stiffness = -float(np.asarray(pad.elastic_stress(body.thickness))) / float(
-        np.asarray(pad.elastic_depth(body.thickness))
-    )
+    pad = pad_of(problem)
+    stress = float(np.asarray(pad.elastic_stress(body.thickness)))
+    stiffness = -stress / float(np.asarray(pad.elastic_depth(body.thickness)))
     # the stress is limited by the strength of the interface
-    stress = min(stiffness * -float(np.asarray(pad.elastic_depth(body.thickness))), pad.strength)
+    stress = min(stress, pad.strength)
     pressed = _pressed(problem, stiffness)
     ways = np.array([pressed, -stress / stiffness])
     found["curves"]["elastic"] = _curve("infinitely slow, short range", ways, ways * stiffness)

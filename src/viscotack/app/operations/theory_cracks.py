@@ -90,16 +90,11 @@ class _OfTheory(Reduced):
             raise InputError(f"`modulus_table` states the solid; leave out {quoted(given)}")
         if self.modulus_table is None or self.rubbery_modulus is None:
             raise InputError("`modulus_table` and `rubbery_modulus` go together; give both")
-        amplification, speed_range = {
-            "theory persson-brener": (
-                tabulated_modulus.amplification,
-                tabulated_modulus.speed_range,
-            ),
-            "theory greenwood": (
-                tabulated_modulus.greenwood_amplification,
-                tabulated_modulus.greenwood_speed_range,
-            ),
-        }[self.word]
+        amplification = tabulated_modulus.amplification
+        speed_range = tabulated_modulus.speed_range
+        if isinstance(self, Greenwood):
+            amplification = tabulated_modulus.greenwood_amplification
+            speed_range = tabulated_modulus.greenwood_speed_range
         modulus = read_modulus(
             caller.file(self.modulus_table), rubbery_modulus=self.rubbery_modulus
         )

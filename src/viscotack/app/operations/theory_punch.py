@@ -112,16 +112,7 @@ class OfPad(Reduced):
 
     def _pad(self, caller: Caller) -> "tuple[Pad, Material, dict[str, float]]":
         """Return the pad and its solid in SI, and the requested numbers."""
-        from viscotack.theory.punch import Pad
-
         problem = self._problem(caller)
-        pad = Pad(
-            half_width=problem.geometry.half_width,
-            contact_modulus=problem.material.contact_modulus,
-            work_of_adhesion=problem.traction.work_of_adhesion,
-            strength=problem.traction.strength,
-            base=problem.body.base,
-        )
         wanted = {"thickness": self.thickness, "stress": self.stress, "speed": self.speed}
         if self.case is not None:
             wanted["speed"] = self.speed or problem.protocol.speed
@@ -132,7 +123,7 @@ class OfPad(Reduced):
             raise InputError(
                 'speed is missing, the retraction speed; for example "100 um/s"', field="speed"
             )
-        return pad, problem.material, wanted
+        return pad_of(problem), problem.material, wanted
 
     def _problem(self, caller: Caller) -> Any:
         """Return the problem of the case file, or of the options as `simulate punch` reads them."""
@@ -158,6 +149,19 @@ class OfPad(Reduced):
         if problem.scales() is None:
             raise InputError(f"{self.case} states no units; this command needs a flat punch in SI")
         return problem if passport is None else replace(problem, material=passport.material)
+
+
+def pad_of(problem: Any) -> "Pad":
+    """Return the pad of a problem of a punch in SI."""
+    from viscotack.theory.punch import Pad
+
+    return Pad(
+        half_width=problem.geometry.half_width,
+        contact_modulus=problem.material.contact_modulus,
+        work_of_adhesion=problem.traction.work_of_adhesion,
+        strength=problem.traction.strength,
+        base=problem.body.base,
+    )
 
 
 def _boundaries(pad: "Pad", law: "CrackLaw") -> dict[str, Any]:
