@@ -50,12 +50,13 @@ class Told:
 
     record: object = None
     refused: str = ""
+    field: str = ""
 
 
-def refused(words):
+def refused(words, field=""):
     """Return the words of a refusal with options as Python spells them."""
     words = re.sub(r"--([a-z][a-z0-9-]*)", lambda x: x[1].replace("-", "_"), words)
-    return Told(refused=words.replace("`", ""))
+    return Told(refused=words.replace("`", ""), field=field)
 
 
 def by_python(question):
@@ -65,7 +66,7 @@ def by_python(question):
     except FileNotFoundError as error:
         return refused(f"there is no file {error.filename}")
     except (InputError, OSError) as error:
-        return refused(str(error))
+        return refused(str(error), getattr(error, "field", ""))
 
 
 def by_command(question):
@@ -188,7 +189,7 @@ def told(response):
         answer.pop("beside", None)
         return Told(without_times(answer))
     assert response.status_code == 422, response.text
-    return refused(answer["error"])
+    return refused(answer["error"], answer["field"])
 
 
 def files_of(value):

@@ -10,7 +10,7 @@ import pytest
 from fastapi import FastAPI
 
 from viscotack.app.api import application
-from viscotack.app.api.guard import Rules, guard
+from viscotack.app.api.guard import guard
 from viscotack.app.engine.jobs import Engine, Limits
 from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
 
@@ -140,7 +140,7 @@ def behind():
     def make(**rules):
         app = FastAPI()
         app.add_api_route("/{path:path}", lambda: {}, methods=["GET", "POST"])
-        made.append(Asking(guard(app, Rules(**rules))))
+        made.append(Asking(guard(app, **rules)))
         return made[-1]
 
     yield make

@@ -118,6 +118,8 @@ def agree(question, found):
             continue
         assert other.record == first.record, f"{door}: {question}: {other} and {first}"
         assert other.refused == first.refused, f"{door}: {question}: {other} and {first}"
+        if door == "HTTP":
+            assert other.field == first.field, f"{question}: {other}"
 
 
 @pytest.mark.parametrize("word", list(ASKED))
@@ -212,6 +214,14 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
     assert (folder / "lens_1_um_s.csv").read_bytes() == before
 
 
+@pytest.mark.parametrize("target, refused", [("./lens_1_um_s.csv", True), ("lens.toml", False)])
+def test_force_replaces_files_but_none_that_was_read(folder, target, refused):
+    before = (folder / target).read_bytes()
+    status, _, said = run(["test", "read", "lens_1_um_s.csv", "--csv", target, "--force"])
+    assert (status == 2) == refused == ("is an input" in said)
+    assert ((folder / target).read_bytes() == before) == refused
+
+
 GARBAGE = [{}, {"a": 1}, True, "x", -1, 1e308, float("nan"), "1e400", b"x", object(), [None], "\0"]
 
 
@@ -224,7 +234,7 @@ def test_an_option_of_a_wrong_kind_is_refused_and_nothing_else(word):
                 request_of(kind, {name: value})
 
 
-@pytest.mark.parametrize("name", [name.replace("-", "_") for name in FLAGS])
+@pytest.mark.parametrize("name", list(FLAGS))
 def test_a_flag_of_a_wrong_kind_is_refused_and_nothing_else(name):
     for value in GARBAGE:
         with contextlib.suppress(InputError, OSError):

@@ -32,6 +32,7 @@ def application(
     """
     try:
         import python_multipart  # noqa: F401  # files are sent with it
+        import uvicorn  # noqa: F401  # serves it
         from fastapi import FastAPI
     except ImportError as error:
         raise InputError(
@@ -39,7 +40,7 @@ def application(
         ) from None
     from viscotack.version import __version__
 
-    from .guard import Rules, guard
+    from .guard import guard
     from .routes import refusals, routes
 
     engine = Engine() if engine is None else engine
@@ -64,4 +65,4 @@ def application(
     refusals(app)
     app.include_router(routes(engine))
     limits = engine.limits
-    return guard(app, Rules(hosts, token, limits.body, limits.uploads))
+    return guard(app, hosts=hosts, token=token, body=limits.body, uploads=limits.uploads)

@@ -1,8 +1,7 @@
 """Access control: host, origin, token and size of a request."""
 
 import secrets
-from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
+from collections.abc import Awaitable, Callable, Sequence
 
 from fastapi import FastAPI, Request, Response
 from fastapi.responses import JSONResponse, RedirectResponse
@@ -18,13 +17,21 @@ _HEADERS = {
 }
 
 
-@dataclass(frozen=True)
-class Rules:
-    """Rules of access.
+def guard(
+    app: FastAPI,
+    *,
+    hosts: Sequence[str] = (),
+    token: str = "",
+    body: int = 1_000_000,
+    uploads: int = 20_000_000,
+) -> FastAPI:
+    """Add the rules of access to an application.
 
-    Attributes
+    Parameters
     ----------
-    hosts : tuple of str
+    app : FastAPI
+        The application.
+    hosts : sequence of str
         Accepted host names, without port; () for any.
     token : str
         Token that a request must contain; "" for none.
@@ -32,47 +39,41 @@ class Rules:
         Largest request, and largest request with files [bytes].
     """
 
-    hosts: tuple[str, ...] = ()
-    token: str = ""
-    body: int = 1_000_000
-    uploads: int = 20_000_000
-
-
-def guard(app: FastAPI, rules: Rules) -> FastAPI:
-    """Add the rules to an application."""
-
     @app.middleware("http")
     async def guarded(
         request: Request, forward: Callable[[Request], Awaitable[Response]]
     ) -> Response:
-        refused = _refusal(request, rules)
-        response = refused or _entered(request, rules) or await forward(request)
+        refused = _refusal(request, token) or _too_long(request, body, uploads)
+        response = refused or _entered(request, token) or await forward(request)
         response.headers.update(_HEADERS)
         return response
 
-    if rules.hosts:
-        app.add_middleware(
-            TrustedHostMiddleware, allowed_hosts=list(rules.hosts), www_redirect=False
-        )
+    if hosts:
+        app.add_middleware(TrustedHostMiddleware, allowed_hosts=list(hosts), www_redirect=False)
     return app
 
 
-def _refusal(request: Request, rules: Rules) -> Response | None:
-    """Return the refusal of a request, None for an accepted one."""
+def _refusal(request: Request, token: str) -> Response | None:
+    """Return the refusal of a request from elsewhere or without the token."""
     origin = request.headers.get("origin", "")
     if origin and origin.partition("://")[2] != request.headers.get("host", ""):
         # a page of another origin in the browser of the user
         return _said(403, "pages from elsewhere may not ask this server")
-    if rules.token and not _knows(request, rules.token):
+    if token and not _knows(request, token):
         return _said(
             401,
             "this server wants its token: the header Authorization: Bearer TOKEN, or in a browser "
             "the link that viscotack app has printed",
         )
+    return None
+
+
+def _too_long(request: Request, body: int, uploads: int) -> Response | None:
+    """Return the refusal of a request that is too long, or of unknown length."""
     if request.method != "POST":
         return None
     is_upload = request.headers.get("content-type", "").startswith("multipart/form-data")
-    most = rules.uploads if is_upload else rules.body
+    most = uploads if is_upload else body
     length = request.headers.get("content-length", "")
     if not length.isdigit():
         return _said(411, "the request must state its length")
@@ -91,19 +92,19 @@ def _knows(request: Request, token: str) -> bool:
     return any(secrets.compare_digest(x.encode(), token.encode()) for x in given)
 
 
-def _entered(request: Request, rules: Rules) -> Response | None:
+def _entered(request: Request, token: str) -> Response | None:
     """Return the way to the page, with a cookie, for a browser that opened the link with a token.
 
     The token does not appear in histories and logs.
     """
-    if not rules.token or request.url.path != "/" or "token" not in request.query_params:
+    if not token or request.url.path != "/" or "token" not in request.query_params:
         return None
     bare = request.url.remove_query_params("token")
     response = RedirectResponse(f"{bare.path}?{bare.query}" if bare.query else bare.path, 303)
-    response.set_cookie(_COOKIE, rules.token, httponly=True, samesite="strict")
+    response.set_cookie(_COOKIE, token, httponly=True, samesite="strict")
     return response
 
 
 def _said(status: int, words: str) -> Response:
     headers = {"www-authenticate": "Bearer"} if status == 401 else None
-    return JSONResponse({"error": words}, status, headers)
+    return JSONResponse({"error": words, "field": ""}, status, headers)

@@ -60,9 +60,10 @@ class SentFiles(BaseModel):
 
 
 class Refusal(BaseModel):
-    """Error response: the problem, the value, and a remedy."""
+    """Error response: the problem, the value, and a remedy; `field` is the option, if it is one."""
 
     error: str
+    field: str = ""
 
 
 class Answer(BaseModel):
@@ -89,6 +90,7 @@ class JobAnswer(BaseModel):
     rows: Annotated[list[dict[str, Any]], Field(description="Of a sweep, from `rows_from` on.")]
     rows_from: int
     error: Annotated[str, Field(description="Why there is no answer; empty else.")]
+    field: Annotated[str, Field(description="The option that the error names; empty else.")]
     answer: Annotated[
         dict[str, Any] | None,
         Field(description="The record of the operation, as its command prints it with --json."),

@@ -1,6 +1,7 @@
 """Routes of the API and of the page, and the static files of the page."""
 
 import asyncio
+from collections.abc import Callable
 from importlib.resources import files as files_of
 from inspect import cleandoc
 from typing import Annotated, Any
@@ -26,6 +27,7 @@ from .models import (
     JobAnswer,
     Refusal,
     SentFiles,
+    Strict,
 )
 
 # Longest time that a request for the state of a job waits for changes [s].
@@ -146,17 +148,18 @@ def _told(job: Job, points_from: int = 0, rows_from: int = 0, *, whole: bool = T
             "rows": job.rows[rows_from:],
             "rows_from": rows_from,
             "error": job.error,
+            "field": job.field,
             "answer": job.answer if whole else None,
         }
     )
 
 
 def refusals(app: FastAPI) -> None:
-    """Install handlers that return all errors as ``{"error": message}``."""
+    """Install handlers that return all errors as a `Refusal`."""
 
     async def refused(request: Any, error: Exception) -> JSONResponse:
         status = next((s for kind, s in _STATUS.items() if isinstance(error, kind)), 422)
-        return JSONResponse({"error": str(error)}, status)
+        return _refused(status, str(error), getattr(error, "field", ""))
 
     async def malformed(request: Any, error: Exception) -> JSONResponse:
         assert isinstance(error, RequestValidationError)
@@ -164,24 +167,28 @@ def refusals(app: FastAPI) -> None:
         kind = request.scope["route"].endpoint.__annotations__.get("asked")
         inside = [each for each in errors if each["loc"][0] == "body"]
         if any(each["type"] in ("json_invalid", "model_attributes_type") for each in inside):
-            return JSONResponse({"error": "the request must be a JSON object"}, 422)
+            return _refused(422, "the request must be a JSON object")
         if inside and isinstance(kind, type) and issubclass(kind, Request):
-            return JSONResponse({"error": str(refusal(kind, inside))}, 422)
+            return await refused(request, refusal(kind, inside))
         first = errors[0]
         place = ".".join(str(part) for part in first["loc"])
-        return JSONResponse({"error": f"{place}: {first['msg']}"}, 422)
+        return _refused(422, f"{place}: {first['msg']}")
 
     async def failed(request: Any, error: Exception) -> JSONResponse:
-        return JSONResponse({"error": f"this is a defect of viscotack: {error}"}, 500)
+        return _refused(500, f"this is a defect of viscotack: {error}")
 
     async def plain(request: Any, error: Exception) -> JSONResponse:
         assert isinstance(error, HTTPException)
-        return JSONResponse({"error": str(error.detail)}, error.status_code, error.headers)
+        return _refused(error.status_code, str(error.detail), headers=error.headers)
 
     app.add_exception_handler(InputError, refused)
     app.add_exception_handler(Defect, failed)
     app.add_exception_handler(RequestValidationError, malformed)
     app.add_exception_handler(HTTPException, plain)
+
+
+def _refused(status: int, words: str, field: str = "", headers: Any = None) -> JSONResponse:
+    return JSONResponse({"error": words, "field": field}, status, headers)
 
 
 def _page(router: APIRouter, engine: Engine) -> None:
@@ -197,33 +204,11 @@ def _page(router: APIRouter, engine: Engine) -> None:
 
     @router.get("/api/forms", tags=["page"])
     async def forms() -> Answer:
-        """Say what can be asked, read from the cards: choices, fields, units, ranges, examples."""
+        """Return the input forms, the published materials and example cases."""
         return Answer(**await engine.page(page_tasks.ask_forms, {}))
 
-    @router.post("/api/state", tags=["page"])
-    async def state(asked: AskedState) -> Answer:
-        """Return the tables of a case file."""
-        return Answer(**await engine.page(page_tasks.ask_state, asked.model_dump()))
-
-    @router.post("/api/quick", tags=["page"])
-    async def quick(asked: AskedQuick) -> Answer:
-        """Evaluate theory and surrogate for a state (milliseconds): curves, numbers, intervals."""
-        return Answer(**await engine.page(page_tasks.ask_quick, asked.model_dump()))
-
-    @router.post("/api/moduli", tags=["page"])
-    async def moduli(asked: AskedVerdict) -> Answer:
-        """Return storage and loss modulus of a state's material over the frequency."""
-        return Answer(**await engine.page(page_tasks.ask_moduli, asked.model_dump()))
-
-    @router.post("/api/verdict", tags=["page"])
-    async def verdict(asked: AskedVerdict) -> Answer:
-        """Return the advisor's words on a state."""
-        return Answer(**await engine.page(page_tasks.ask_verdict, asked.model_dump()))
-
-    @router.post("/api/theory", tags=["page"])
-    async def theory(asked: AskedTheory) -> Answer:
-        """Return the curves of the theories that may take seconds."""
-        return Answer(**await engine.page(page_tasks.ask_theory, asked.model_dump()))
+    for name, (kind, task) in _TASKS.items():
+        _page_task(router, engine, name, kind, task)
 
     @router.get("/", include_in_schema=False)
     async def page() -> Response:
@@ -236,6 +221,24 @@ def _page(router: APIRouter, engine: Engine) -> None:
     @router.get("/page/{name}", include_in_schema=False)
     async def part(name: str) -> Response:
         return _file(name)
+
+
+# Tasks of the page: what each takes, and its function.
+_TASKS: dict[str, tuple[type[Strict], Callable[..., dict[str, Any]]]] = {
+    "state": (AskedState, page_tasks.ask_state),
+    "quick": (AskedQuick, page_tasks.ask_quick),
+    "moduli": (AskedVerdict, page_tasks.ask_moduli),
+    "verdict": (AskedVerdict, page_tasks.ask_verdict),
+    "theory": (AskedTheory, page_tasks.ask_theory),
+}
+
+
+def _page_task(router: APIRouter, engine: Engine, name: str, kind: type[Strict], task: Any) -> None:
+    async def route(asked: Any) -> Answer:
+        return Answer(**await engine.page(task, asked.model_dump()))
+
+    route.__annotations__["asked"] = kind
+    router.post(f"/api/{name}", tags=["page"], summary=name, description=task.__doc__)(route)
 
 
 # What the page is made of: the requested names are looked up here, and not in a folder.

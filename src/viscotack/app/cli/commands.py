@@ -90,7 +90,7 @@ def wrong_input(kind: "type[Request] | None" = None) -> Iterator[None]:
 
 def _spelled(error: InputError, kind: "type[Request] | None") -> str:
     """Return the message of an error, with the field that it names as the flag."""
-    words, name = str(error), error.field.replace("-", "_")
+    words, name = str(error), error.field
     if name and words.startswith(name):
         words = f"`{name}`{words.removeprefix(name)}"
     return re.sub(r"`(\w+)`", lambda x: _flag(x[1], kind), words)
@@ -104,8 +104,7 @@ def _flag(name: str, kind: "type[Request] | None") -> str:
     if kind is not None and name in kind.model_fields:
         option = option_of(kind.model_fields[name])
         return name if option.argument else flag_of(name, option)
-    flag = name.replace("_", "-")
-    return f"--{flag}" if kind is not None and flag in FLAGS else name
+    return f"--{name.replace('_', '-')}" if kind is not None and name in FLAGS else name
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:

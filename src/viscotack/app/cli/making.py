@@ -29,7 +29,8 @@ from viscotack.app.operations.request import (
 from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input
-from .running import carry_out, checked
+from .running import carry_out
+from .writing import checked
 
 _SETTINGS = {"max_content_width": 100}
 # Placeholders of numbers by unit.
@@ -131,10 +132,10 @@ def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Param
     yield _parameter("case_", Path if only else Path | None, words, needed=only)
     for name, flag in _flags(option, indenter).items():
         usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
-        words = typer.Option(f"--{name}", metavar=usual, help=flag.words, show_default=False)
-        yield _parameter(
-            f"of_{name.replace('-', '_')}", list[str] | None if flag.many else str | None, words
+        words = typer.Option(
+            f"--{name.replace('_', '-')}", metavar=usual, help=flag.words, show_default=False
         )
+        yield _parameter(f"of_{name}", list[str] | None if flag.many else str | None, words)
 
 
 def _flags(option: Contact, indenter: str | None) -> Mapping[str, Flag]:
@@ -190,8 +191,7 @@ def _problem(option: Contact, indenter: str | None, said: Mapping[str, Any]) -> 
 
 def _first_with(option: Contact, given: Mapping[str, Any]) -> str:
     """Return the first indenter that has all flags that were given."""
-    names = {name.replace("_", "-") for name in given}
     return next(
-        (word for word in option.indenters if names <= flags_of((word,)).keys()),
+        (word for word in option.indenters if given.keys() <= flags_of((word,)).keys()),
         option.indenters[0],
     )

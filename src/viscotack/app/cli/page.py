@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
-from viscotack.errors import InputError, install_command
+from viscotack.errors import InputError
 
 from .commands import With, application, wrong_input
 
@@ -50,7 +50,6 @@ def app_command(
     Example: viscotack app examples/from_toml/lens.toml
     """
     with wrong_input():
-        server = _uvicorn()
         from viscotack.app.api import application as served
         from viscotack.app.engine.jobs import Engine, Limits
         from viscotack.model.problem.nouns import own_nouns
@@ -69,23 +68,15 @@ def app_command(
     typer.echo(f"viscotack app: {link}\nCtrl-C ends it.", err=True)
     if browser:
         webbrowser.open(link)
-    config = server.Config(
+    import uvicorn
+
+    config = uvicorn.Config(
         behind,
         limit_concurrency=_MOST_REQUESTS,
         log_level="warning",
         timeout_graceful_shutdown=2,
     )
-    server.Server(config).run(sockets=[listening])
-
-
-def _uvicorn() -> Any:
-    try:
-        import uvicorn
-    except ImportError as error:
-        raise InputError(
-            f"the page and the API need {error.name}; install it with: {install_command('app')}"
-        ) from None
-    return uvicorn
+    uvicorn.Server(config).run(sockets=[listening])
 
 
 def _token(host: str) -> str:

@@ -1,6 +1,5 @@
 """Run a request from the command line: its progress, its files, and its answer."""
 
-import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -10,11 +9,10 @@ from typing import Any
 
 import typer
 
-from viscotack.app.operations.request import Answer, Caller, Output, Request, answered
-from viscotack.errors import InputError
+from viscotack.app.operations.request import Caller, Output, Request, answered
 from viscotack.files.text import harmless
 
-from .writing import Writing, check_files
+from .writing import finish
 
 # Seconds between two lines of progress.
 LINES = 10.0
@@ -48,39 +46,9 @@ def carry_out(
     wants = frozenset(output.name for output, file in files.items() if file is not None)
     paths = tuple(str(Path(file).resolve()) for file in own)
     with progress() as tell:
-        answer = answered(asked, Caller(tell, wants, own_nouns(own), paths, folder))
-    _finish(answer, files, as_json)
-
-
-def checked(
-    files: Mapping[Output, Path | None], *, force: bool, as_json: bool
-) -> dict[Output, Path | None]:
-    """Return the files to write, including default ones."""
-    found = {
-        output: Path(output.usual) if file is None and output.usual and not as_json else file
-        for output, file in files.items()
-    }
-    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
-        raise InputError(f"{missing[0]} is missing; give the output file")
-    check_files(found, force=force, as_json=as_json)
-    return found
-
-
-def _finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) -> None:
-    write = Writing()
-    for output, file in files.items():
-        if output.name in answer.pictures:
-            write.picture(file, answer.pictures[output.name])
-        elif output.name in answer.files:
-            write(output.done, file, answer.files[output.name])
-    for note in answer.notes:
-        typer.echo(harmless(note), err=True)
-    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)
-    if text:
-        write.answer(text)
-    write.end()
-    if answer.status:
-        raise typer.Exit(answer.status)
+        caller = Caller(tell, wants, own_nouns(own), paths, folder)
+        answer = answered(asked, caller)
+    finish(answer, files, as_json, caller.read)
 
 
 @contextmanager

@@ -33,7 +33,8 @@ def study_command(
     with wrong_input():
         from viscotack.app.operations.study import read_study
 
-        from .running import carry_out, checked
+        from .running import carry_out
+        from .writing import checked
 
         study = read_study(file)
         files = {output: study.write.get(output.name) for output in study.request.outputs}

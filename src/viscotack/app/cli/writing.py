@@ -1,32 +1,29 @@
 """Output files of commands: checked before the work, and failures reported after it."""
 
-from collections.abc import Callable, Mapping
+import json
+from collections.abc import Mapping, Sequence
+from errno import EEXIST
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import typer
 
-from viscotack.app.operations.request import Output
+from viscotack.app.operations.request import Answer, Output
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
 from viscotack.files.whole import (
     NotWritten,
-    Target,
     check_target,
     is_standard_output,
     same_file,
 )
 from viscotack.plot.style import check_format, save_figure
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-def check_files(
-    files: Mapping[Output, Path | None], *, force: bool = False, as_json: bool = False
-) -> None:
-    """Raise InputError for output files that cannot be written, before the work starts.
+def checked(
+    files: Mapping[Output, Path | None], *, force: bool, as_json: bool
+) -> dict[Output, Path | None]:
+    """Return the files to write, including default ones, checked before the work starts.
 
     Parameters
     ----------
@@ -40,9 +37,16 @@ def check_files(
     Raises
     ------
     InputError
-        If a file is used twice, has the ending of another format, exists or cannot be written.
+        If a file is missing or used twice, has the ending of another format, exists or cannot be
+        written.
     """
-    given = {output: file for output, file in files.items() if file is not None}
+    found = {
+        output: Path(output.usual) if file is None and output.usual and not as_json else file
+        for output, file in files.items()
+    }
+    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
+        raise InputError(f"{missing[0]} is missing; give the output file")
+    given = {output: file for output, file in found.items() if file is not None}
     for output, file in given.items():
         flag = output.flag
         if is_standard_output(file):
@@ -76,53 +80,56 @@ def check_files(
                 "different names"
             )
 
+    return found
 
-class Writing:
-    """Writer of the output files of a command; continues with the others if one fails."""
 
-    def __init__(self) -> None:
-        self._failed = False
-        self._reader_left: BrokenPipeError | None = None
-        self._taken = False
+def finish(
+    answer: Answer, files: Mapping[Output, Path | None], as_json: bool, read: Sequence[Path] = ()
+) -> None:
+    """Write the files of an answer, print it, and exit with its status.
 
-    def __call__(self, done: str, file: Path | None, writer: Callable[[Target], None]) -> None:
-        """Write a file if requested, and report success or failure on standard error."""
-        if file is None:
-            return
-        goes_on = is_standard_output(file)
-        self._taken |= goes_on
+    A file that cannot be written, or was read, does not stop the others; the status is then 2. If a
+    table goes to standard output, the answer goes to standard error.
+    """
+    failed, is_taken = False, False
+    reader_left: BrokenPipeError | None = None
+    for output, file in files.items():
+        if file is None or output.name not in answer.files.keys() | answer.pictures.keys():
+            continue
+        to_output = is_standard_output(file)
+        is_taken |= to_output
         try:
-            writer(typer.get_binary_stream("stdout") if goes_on else file)
+            if any(same_file(file, each) for each in read):
+                words = f"cannot write {file}: it is an input of this command; give another name"
+                raise NotWritten(EEXIST, words)
+            if output.name in answer.pictures:
+                save_figure(answer.pictures[output.name](), file)
+            else:
+                answer.files[output.name](typer.get_binary_stream("stdout") if to_output else file)
         except BrokenPipeError as error:
-            self._reader_left = error
+            reader_left = error
         except OSError as error:
             known = isinstance(error, NotWritten)
             words = error if known else f"cannot write to standard output: {error.strerror}"
             typer.echo(f"viscotack: {words}", err=True)
-            self._failed = True
+            failed = True
         else:
-            if not goes_on:
-                typer.echo(f"{done} {file}", err=True)
-
-    def picture(self, file: Path | None, draw: Callable[[], "Figure"]) -> None:
-        """Draw a figure and write it."""
-        if file is not None:
-            self("drew", file, lambda _: save_figure(draw(), file))
-
-    def answer(self, text: str) -> None:
-        """Print the answer; on standard error if a table is written to standard output."""
-        try:
-            typer.echo(harmless(text), err=self._taken)
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            name = "standard error" if self._taken else "standard output"
-            raise InputError(f"cannot write to {name}: {error.strerror}") from None
-
-    def end(self) -> None:
-        """End the command with exit status 2 if a file could not be written."""
-        if self._failed:
-            raise typer.Exit(2)
-        if self._reader_left is not None:
-            # Typer ends the command silently
-            raise self._reader_left
+            if not to_output:
+                typer.echo(f"{output.done} {file}", err=True)
+    for note in answer.notes:
+        typer.echo(harmless(note), err=True)
+    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)
+    try:
+        if text:
+            typer.echo(harmless(text), err=is_taken)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        name = "standard error" if is_taken else "standard output"
+        raise InputError(f"cannot write to {name}: {error.strerror}") from None
+    if failed:
+        raise typer.Exit(2)
+    if reader_left is not None:
+        raise reader_left  # Typer ends the command silently
+    if answer.status:
+        raise typer.Exit(answer.status)

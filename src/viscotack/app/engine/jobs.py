@@ -89,8 +89,8 @@ class Job:
         Of the work that is done.
     points, rows : list
         Of the curve that grows, and of the table.
-    error : str
-        Why it has no answer.
+    error, field : str
+        Why it has no answer, and the option that is wrong.
     """
 
     id: str
@@ -104,6 +104,7 @@ class Job:
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
     _answer: bytes = b""
+    field: str = ""
 
     @property
     def over(self) -> bool:
@@ -253,6 +254,7 @@ class Engine:
             )
             job.close("done", answer=answer)
         except InputError as error:
+            job.field = error.field
             job.close("refused", error=str(error))
         except Defect as error:
             job.close("failed", error=f"this is a defect of viscotack: {error}")

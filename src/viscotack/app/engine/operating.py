@@ -44,7 +44,7 @@ def run_request(
         beside = _beside(type(asked), answer, wanted)
         return _without(shown, _record(answer) | beside)
     except InputError as error:
-        raise type(error)(_without(shown, str(error))) from None
+        raise type(error)(_without(shown, str(error)), field=error.field) from None
     except FileNotFoundError as error:
         raise InputError(f"there is no file {_without(shown, str(error.filename))}") from None
     except OSError as error:
@@ -63,7 +63,7 @@ def _without(folder: str, value: Any) -> Any:
 
 
 def _record(answer: Answer) -> dict[str, Any]:
-    found = plain(answer.record())
+    found = answer.record()
     return found if isinstance(found, dict) else {"answer": found}
 
 

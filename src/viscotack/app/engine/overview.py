@@ -12,6 +12,7 @@ import numpy as np
 
 from viscotack.app.engine.state import State
 from viscotack.app.operations.parts.json_data import drawn, plain
+from viscotack.app.operations.theory_punch import pad_of
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Disc, FlatPunch, Layer
@@ -31,7 +32,7 @@ from viscotack.prediction.theories import forms_of
 from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import AT_ONCE, TIERS
 from viscotack.theory.elastic.relaxed import contact, curve, ends
-from viscotack.theory.punch import Pad, unloading
+from viscotack.theory.punch import unloading
 from viscotack.units import readable_interval
 
 # Speeds of the picture of force against speed, in one table or one by one at a millisecond each,
@@ -197,7 +198,7 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
         found["notes"].append(f"surrogate: {answer.why}")
     # a surrogate may withhold work and curve at this speed, and state the force at all of them
     if curve is not None or answer.method.startswith("surrogate"):
-        found["speeds"] = _punch_speeds(problem, confidence) if punch else _speeds(answer)
+        found["speeds"] = _speeds(answer)
 
 
 def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
@@ -229,46 +230,55 @@ def _band(interval: tuple[float, float], scale: float, unit: str, confidence: fl
     return words if confidence is None else f"{words} in {100 * confidence:.3g} % of cases"
 
 
+def by_speed(speed: Any, forces: Any, problem: Problem, words: str) -> dict[str, Any]:
+    """Return the curve of force by speed: forces, and the ends of their intervals, in SI."""
+    force, low, high = map(drawn, forces)
+    return {
+        "speed": drawn(speed),
+        "force": force,
+        "low": low,
+        "high": high,
+        "here": problem.protocol.speed,
+        "words": words,
+    }
+
+
 def _speeds(answer: Prediction) -> dict[str, Any]:
-    """Return the pull-off force at other speeds, within the range of the surrogate."""
+    """Return the pull-off at other speeds, within the range of the surrogate."""
     problem, confidence = answer.problem, answer.confidence
+    assert isinstance(problem, Problem) and confidence is not None
     groups, scales = problem.groups(), problem.scales()
-    assert isinstance(problem, Problem) and scales is not None and confidence is not None
-    assert isinstance(groups, Groups) and groups.rate is not None
+    punch = isinstance(problem.geometry, FlatPunch)
+    assert groups.rate is not None
     least, most = groups.rate * 10**-_DECADES, groups.rate * 10**_DECADES
-    if answer.inside and answer.method == SURROGATE:
-        assert isinstance(groups.material, RetardationPowerLaw)
-        low, high = store.shipped().limits["rate"]
+    if punch or answer.inside and answer.method == SURROGATE:
+        inputs = inputs_of(groups) if punch else _inputs(groups)
+        low, high = (LOW[RATE], HIGH[RATE]) if punch else store.shipped().limits["rate"]
         rates = np.geomspace(max(low * 1.0001, least), min(high / 1.0001, most), _SPEEDS)
-        forces = _of_power_law(groups, groups.material.exponent, rates, confidence)
+        columns = {name: np.full(_SPEEDS, value) for name, value in inputs.items()}
+        found = predict_table(columns | {"rate": rates}, confidence=confidence)
+        name = pulled(problem.outputs)
+        forces = [found[f"{name}{end}"] for end in ("", "_low", "_high")]
     else:
         rates, forces = _one_by_one(groups, np.geomspace(least, most, _FEW), confidence)
-    value, below, above = (drawn(each * scales.force) for each in forces)
+    load = scales.stress if punch else scales.force
+    speeds = rates * scales.length / scales.time
+    return by_speed(speeds, [each * load for each in forces], problem, "surrogate")
+
+
+def _inputs(groups: Groups) -> dict[str, float]:
+    """Return the inputs of the surrogate of power laws."""
+    assert isinstance(groups.material, RetardationPowerLaw)
     return {
-        "speed": drawn(rates * scales.length / scales.time),
-        "force": value,
-        "low": below,
-        "high": above,
-        "here": problem.protocol.speed,
-        "words": "surrogate",
-    }
-
-
-def _of_power_law(groups: Groups, exponent: float, rates: Array, confidence: float) -> list[Array]:
-    """Return forces at some rates and the ends of their intervals."""
-    same = {
         "tabor": groups.tabor,
         "modulus_ratio": groups.modulus_ratio,
-        "exponent": exponent,
+        "exponent": groups.material.exponent,
         _INPUTS[type(groups.start)]: groups.start.value,  # type: ignore[index]
     }
-    columns = {name: np.full(_SPEEDS, value) for name, value in same.items()} | {"rate": rates}
-    answers = predict_table(columns, confidence=confidence)
-    return [answers[f"pull_off_force{end}"] for end in ("", "_low", "_high")]
 
 
 def _one_by_one(groups: Groups, rates: Array, confidence: float) -> tuple[Array, Array]:
-    """Return the rates at which other surrogates answer, and the same forces."""
+    """Return the rates at which other surrogates answer, and the forces with their intervals."""
     found = []
     for rate in rates.tolist():
         try:
@@ -280,44 +290,15 @@ def _one_by_one(groups: Groups, rates: Array, confidence: float) -> tuple[Array,
     return columns[0], columns[1:]
 
 
-def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
-    """Return the pull-off stress at other speeds, within the range of the surrogate."""
-    groups, speed = problem.groups(), problem.protocol.speed
-    assert speed is not None
-    here = inputs_of(groups)
-    low, high = LOW[RATE] * 1.0001, HIGH[RATE] / 1.0001
-    least, most = here["rate"] * 10**-_DECADES, here["rate"] * 10**_DECADES
-    rates = np.geomspace(max(low, least), min(high, most), _SPEEDS)
-    columns = {name: np.full(_SPEEDS, value) for name, value in here.items()} | {"rate": rates}
-    answers = predict_table(columns, confidence=confidence)
-    names = ("pull_off_stress", "pull_off_stress_low", "pull_off_stress_high")
-    value, below, above = (drawn(answers[name] * problem.scales().stress) for name in names)
-    return {
-        "speed": drawn(rates * speed / here["rate"]),
-        "force": value,
-        "low": below,
-        "high": above,
-        "here": speed,
-        "words": "surrogate",
-    }
-
-
 def _pad(problem: Problem, found: dict[str, Any]) -> None:
     """Add the elastic pad, and the pull-off stress of viscoelastic edges against the speed."""
     geometry, body, speed = problem.geometry, problem.body, problem.protocol.speed
     assert isinstance(geometry, FlatPunch) and isinstance(body, Layer)
-    pad = Pad(
-        half_width=geometry.half_width,
-        contact_modulus=problem.material.contact_modulus,
-        work_of_adhesion=problem.traction.work_of_adhesion,
-        strength=problem.traction.strength,
-        base=body.base,
-    )
-    stiffness = -float(np.asarray(pad.elastic_stress(body.thickness))) / float(
-        np.asarray(pad.elastic_depth(body.thickness))
-    )
+    pad = pad_of(problem)
+    stress = float(np.asarray(pad.elastic_stress(body.thickness)))
+    stiffness = -stress / float(np.asarray(pad.elastic_depth(body.thickness)))
     # the stress is limited by the strength of the interface
-    stress = min(stiffness * -float(np.asarray(pad.elastic_depth(body.thickness))), pad.strength)
+    stress = min(stress, pad.strength)
     pressed = _pressed(problem, stiffness)
     ways = np.array([pressed, -stress / stiffness])
     found["curves"]["elastic"] = _curve("infinitely slow, short range", ways, ways * stiffness)
@@ -333,14 +314,8 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
     law = pad.crack_law("persson-brener", material=problem.material)
     forces = np.asarray(unloading.pull_off(speeds, pad, law, thickness=body.thickness).stress)
     # 1 % low to 19 % high of 35 simulations (viscotack.theory.punch.unloading)
-    found["speeds"] = {
-        "speed": drawn(speeds),
-        "force": drawn(forces),
-        "low": drawn(forces / 1.19),
-        "high": drawn(forces / 0.99),
-        "here": speed,
-        "words": "edges that are viscoelastic cracks",
-    }
+    band = forces, forces / 1.19, forces / 0.99
+    found["speeds"] = by_speed(speeds, band, problem, "edges that are viscoelastic cracks")
 
 
 def _pressed(problem: Problem, stiffness: float) -> float:

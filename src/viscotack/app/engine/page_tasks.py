@@ -22,7 +22,7 @@ from viscotack.simulate.crack_contact.by_crack import METHOD
 from viscotack.version import __version__
 
 from .forms import forms
-from .overview import numbers_of, pulled, quick
+from .overview import by_speed, numbers_of, pulled, quick
 from .state import State, state_of_toml
 
 Tell = Callable[[dict[str, Any]], None]
@@ -162,12 +162,6 @@ def _speeds(problem: Problem) -> dict[str, Any] | None:
         rows.append((speed, answer.pull_off_force, *answer.interval))
     if len(rows) < 2:
         return None
-    speed, force, low, high = np.array(rows).T
-    return {
-        "speed": drawn(speed),
-        "force": drawn(force * scales.force),
-        "low": drawn(low * scales.force),
-        "high": drawn(high * scales.force),
-        "here": protocol.speed,
-        "words": "the best theory of each speed",
-    }
+    speed, *forces = np.array(rows).T
+    in_si = [each * scales.force for each in forces]
+    return by_speed(speed, in_si, problem, "the best theory of each speed")

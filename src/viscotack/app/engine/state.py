@@ -7,8 +7,9 @@ command line and Python code generated from it define the same problem and give 
 import json
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from functools import cached_property
+from pprint import pformat
 from typing import Any
 from urllib.parse import urlencode
 
@@ -114,19 +115,16 @@ class State:
         """Return the Python that simulates it, with every digit."""
         flags = "" if accuracy == DEFAULT_ACCURACY else f", accuracy={accuracy!r}"
         flags += "" if until == "detached" else f", until={until!r}"
+        said = f"result = solve(problem{flags})\nprint(summary(result))\n"
         if self.also:
             return (
-                "import viscotack as vt\n\n"
+                "from viscotack import read_case, solve, summary\n\n"
                 "# also= contains the user-defined classes of the case\n"
-                'problem = vt.read_case("case.toml", also=also)\n'
-                f"result = vt.solve(problem{flags})\nprint(vt.summary(result))\n"
+                f'problem = read_case("case.toml", also=also)\n{said}'
             )
-        return (
-            "import viscotack as vt\n\n"
-            f"problem = {_called(self.problem, 0)}\n"
-            f"result = vt.solve(problem{flags})\n"
-            "print(vt.summary(result))\n"
-        )
+        problem = pformat(self.problem, width=88).replace("\n", f"\n{'':10}")
+        names = sorted({"solve", "summary", *re.findall(r"\b([A-Z]\w*)\(", problem)})
+        return f"from viscotack import {', '.join(names)}\n\nproblem = {problem}\n{said}"
 
 
 def state_of_toml(text: str, also: Iterable[Any] = ()) -> State:
@@ -160,26 +158,3 @@ def _entry(value: Any, depth: int) -> Any:
 
 def _key(name: str) -> str:
     return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name)
-
-
-def _called(noun: Any, indent: int) -> str:
-    """Return the Python code that creates a noun, one number a line, without default values."""
-    inner = " " * (indent + 4)
-    lines = []
-    for field in fields(noun):
-        value = getattr(noun, field.name)
-        if value == field.default:
-            continue
-        lines.append(f"{inner}{field.name}={_said(value, indent + 4)},\n")
-    name = f"vt.{type(noun).__name__}"
-    return f"{name}(\n{''.join(lines)}{' ' * indent})" if lines else f"{name}()"
-
-
-def _said(value: Any, indent: int) -> str:
-    if is_dataclass(value):
-        return _called(value, indent)
-    if isinstance(value, tuple) and any(is_dataclass(entry) for entry in value):
-        inner = " " * (indent + 4)
-        rows = "".join(f"{inner}{_said(entry, indent + 4)},\n" for entry in value)
-        return f"(\n{rows}{' ' * indent})"
-    return repr(value)

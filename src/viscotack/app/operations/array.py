@@ -2,12 +2,13 @@
 
 from math import isfinite, isnan
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .request import Answer, Caller, File, Request, csv_file, picture
+from .parts.record_words import read
+from .request import Answer, Caller, Request, csv_file, file_name, picture
 from .simulate import Accuracy, Limit
 
 
@@ -29,14 +30,12 @@ class OfArray(Request):
     )
     takes_own: ClassVar = True
 
-    file: Annotated[
-        Path,
-        File(
-            "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
-            metavar="ARRAY.toml",
-            argument=True,
-        ),
-    ]
+    file: Path = file_name(
+        "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
+        metavar="ARRAY.toml",
+        argument=True,
+        default=...,
+    )
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 60.0
 
@@ -84,7 +83,7 @@ class OfArray(Request):
         record |= {} if left is None else {"preload_after_hold_N": left}
         return Answer(
             found,
-            record=lambda: record | {"pads": pads},
+            data=lambda: record | {"pads": pads},
             words=lambda: _shown(found, held, record),
             files={"csv": rows_as_csv(curve), "pads": rows_as_csv(pads)},
             pictures={"plot": lambda: draw_array(array, found, load=load)},
@@ -101,8 +100,8 @@ def _pads(array: Any, found: Any) -> list[dict[str, Any]]:
             "y_m": y,
             "height_m": array.heights[i],
             "work_factor": array.works[i],
-            "start_force_N": float(found.start_force[i]),
-            "released_at_m": float(found.released[i]) if i in order else None,
+            "start_force_N": found.start_force[i],
+            "released_at_m": found.released[i] if i in order else None,
             "order": order.get(i),
         }
         for i, (x, y) in enumerate(array.positions)
@@ -113,14 +112,11 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
     """Return the numbers of the answer."""
     record: dict[str, Any] = {
         "count": len(array.positions),
-        "pull_off_force_N": found.pull_off_force,
-        "interval_N": list(found.interval),
+        **read(found, "pull_off_force_N", "interval_N"),
         "work_of_separation_J": found.work,
         "lost_in_jumps_J": found.lost,
-        "load_sharing": found.load_sharing,
         "jumps": [{"travel_m": x, "pads": count} for x, count in found.jumps],
-        "method": found.method,
-        "why": found.why,
+        **read(found, "load_sharing", "method", "why"),
     }
     if held is not None:
         record |= {
@@ -128,12 +124,12 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
             "holds": held.holds,
             "payload_kg": held.payload,
             "lasting_payload_kg": held.lasting,
-            "time_to_detachment_s": held.time if isfinite(held.time) else None,
+            "time_to_detachment_s": held.time,
             "release_time_s": held.release_time,
             "why_time": held.why,
         }
     if part is not None:
-        record |= {"yield": part.share, "yield_interval": list(part.interval)}
+        record |= {"yield": part.share, "yield_interval": part.interval}
     return record
 
 

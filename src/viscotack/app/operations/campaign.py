@@ -4,12 +4,21 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
-
 from viscotack.errors import InputError
 
 from .flags import INDENTERS
-from .request import Answer, Caller, Contact, File, Number, Option, Output, Request
+from .request import (
+    Answer,
+    Caller,
+    File,
+    Output,
+    Request,
+    contact,
+    file_name,
+    number,
+    option,
+    switch,
+)
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress, Store
@@ -39,15 +48,13 @@ class Inputs(Request):
     word: ClassVar = "campaign inputs"
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "A problem in SI, or a rough surface.",
-            indenters=INDENTERS,
-            spelling="case",
-            rough=True,
-        ),
-    ]
+    problem: Any = contact(
+        "A problem in SI, or a rough surface.",
+        indenters=INDENTERS,
+        spelling="case",
+        rough=True,
+        default=...,
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """List the numbers of the problem by path."""
@@ -58,12 +65,11 @@ class Inputs(Request):
             entry.path: {"value": entry.value, "unit": entry.unit, "words": entry.card.words}
             for entry in found.values()
         }
-        lines = [
-            f"{path:<30}{'' if one['value'] is None else format(one['value'], '.6g'):>14} "
-            f"{one['unit']:<10} {one['words']}"
-            for path, one in record.items()
+        rows = [
+            {"name": each.path, "value": each.value, "unit": each.unit, "meaning": each.card.words}
+            for each in found.values()
         ]
-        return Answer(found, record=lambda: record, words=lambda: "\n".join(lines))
+        return Answer(found, data=lambda: record, words=lambda: {"numbers": rows})
 
 
 class DescribePlan(Request):
@@ -77,9 +83,9 @@ class DescribePlan(Request):
     takes_own: ClassVar = True
     local: ClassVar = _OF_PLANS
 
-    plan: Annotated[
-        Path, File(f"{_PLAN}; docs/campaigns.md describes both.", metavar="PLAN", argument=True)
-    ]
+    plan: Path = file_name(
+        f"{_PLAN}; docs/campaigns.md describes both.", metavar="PLAN", argument=True, default=...
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Read the plan and count its cases."""
@@ -101,38 +107,20 @@ class DescribePlan(Request):
             "memory_limit_bytes": limits.memory_limit,
             "ranges": ranges,
         }
-        lines = [
-            f"{len(rows)} cases of kind {plan.kind.name}; {plan.rejected} points without a contact "
-            f"are skipped, {plan.repeated} repeated cases are run once",
-            *([f"  first skipped point: {plan.refusal}"] if plan.rejected else []),
-            *(f"  {name:<24}{low:>12.5g} to {high:.5g}" for name, (low, high) in ranges.items()),
-            f"  to {limits.until}, accuracy {limits.accuracy:g}; limits per case: "
-            f"{limits.time_limit:g} s, {limits.memory_limit / 1e6:g} MB",
-        ]
-        return Answer(
-            plan,
-            record=lambda: record,
-            words=lambda: "\n".join(lines),
-            files={"csv": lambda target: export(rows, target)},
-        )
+        return Answer(plan, data=lambda: record, files={"csv": lambda target: export(rows, target)})
 
 
 class Settings(Request):
     """Options that replace the settings of a plan; `CaseSettings` checks their ranges."""
 
-    accuracy: Annotated[
-        float | None, Number("Relative error of the pull-off force.", metavar="RELATIVE")
-    ] = None
-    until: Annotated[
-        Literal["pull-off", "detached"] | None,
-        Option("End of each case.", metavar="pull-off|detached"),
-    ] = None
-    time_limit: Annotated[
-        float | None, Number('Longest wall time of a case, "10 min".', unit="s", metavar="TIME")
-    ] = None
-    memory_limit: Annotated[
-        float | None, Number('Most memory of a case, "400 MB".', unit="byte", metavar="MEMORY")
-    ] = None
+    accuracy: float | None = number("Relative error of the pull-off force.", metavar="RELATIVE")
+    until: Literal["pull-off", "detached"] | None = option(
+        "End of each case.", metavar="pull-off|detached"
+    )
+    time_limit: float | None = number('Longest wall time of a case, "10 min".', "s", metavar="TIME")
+    memory_limit: float | None = number(
+        'Most memory of a case, "400 MB".', "byte", metavar="MEMORY"
+    )
 
 
 class Run(Settings):
@@ -150,23 +138,20 @@ class Run(Settings):
     takes_own: ClassVar = True
     local: ClassVar = _OF_FOLDERS
 
-    plan: Annotated[
-        Path | None,
-        File(f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True),
-    ] = None
-    out: Annotated[Path, File("Folder of the campaign; created if missing.", metavar="DIR")]
-    workers: Annotated[
-        int, Option("Processes on this machine, one thread each.", metavar="N"), Field(ge=1)
-    ] = 1
-    scheduler: Annotated[
-        str | None,
-        Option('A Dask scheduler with workers, "tcp://host:8786".', metavar="ADDRESS"),
-    ] = None
-    shard: Annotated[
-        str | None,
-        Option("Part of the plan, for a job array; campaign merge combines them.", metavar="K/N"),
-    ] = None
-    retry: Annotated[bool, Option("Also repeat the cases that failed before.")] = False
+    plan: Path | None = file_name(
+        f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True
+    )
+    out: Path = file_name("Folder of the campaign; created if missing.", metavar="DIR", default=...)
+    workers: int = option(
+        "Processes on this machine, one thread each.", metavar="N", default=1, ge=1
+    )
+    scheduler: str | None = option(
+        'A Dask scheduler with workers, "tcp://host:8786".', metavar="ADDRESS"
+    )
+    shard: str | None = option(
+        "Part of the plan, for a job array; campaign merge combines them.", metavar="K/N"
+    )
+    retry: bool = switch("Also repeat the cases that failed before.")
 
     def answer(self, caller: Caller) -> Answer:
         """Run the missing cases and report progress."""
@@ -194,7 +179,7 @@ class Run(Settings):
             why = str(error) or "interrupted"
             return Answer(
                 error,
-                record=lambda: {"stopped": True, "reason": why},
+                data=lambda: {"stopped": True, "reason": why},
                 words=lambda: "",
                 notes=(f"viscotack: {why}; the stored rows in {out} are safe",),
                 status=_STOPPED,
@@ -237,8 +222,7 @@ class Status(Request):
             {"failure": kind, "reason": reason, "cases": count}
             for (kind, reason), count in store.reasons().most_common()
         ]
-        lines = [f"  {why['cases']:6d} {why['failure']}: {why['reason']}" for why in failures]
-        return _standing(folder, store, lines, failures=failures)
+        return _standing(folder, store, failures=failures)
 
 
 class Merge(Request):
@@ -252,10 +236,10 @@ class Merge(Request):
     word: ClassVar = "campaign merge"
     local: ClassVar = _OF_FOLDERS
 
-    folders: Annotated[
-        tuple[Path, ...], File("Folders of campaigns.", metavar="DIR...", argument=True)
-    ]
-    out: Annotated[Path, File("Folder of the merged campaign.", metavar="DIR")]
+    folders: tuple[Path, ...] = file_name(
+        "Folders of campaigns.", metavar="DIR...", argument=True, default=...
+    )
+    out: Path = file_name("Folder of the merged campaign.", metavar="DIR", default=...)
 
     def answer(self, caller: Caller) -> Answer:
         """Merge the campaigns."""
@@ -283,7 +267,7 @@ class Export(Request):
     local: ClassVar = _OF_FOLDERS
 
     folder: AFolder
-    trajectories: Annotated[bool, Option("Write the points of each curve to CSV too.")] = False
+    trajectories: bool = switch("Write the points of each curve to CSV too.")
 
     def answer(self, caller: Caller) -> Answer:
         """Open the folder; tables are created while they are written."""
@@ -303,21 +287,16 @@ class Export(Request):
         return replace(_standing(folder, store), files=files)
 
 
-def _standing(
-    folder: Path, of: "Progress | Store", lines: list[str] | None = None, **more: Any
-) -> Answer:
+def _standing(folder: Path, of: "Progress | Store", **more: Any) -> Answer:
     """Build the answer with the progress of a run, or of a stored campaign."""
     from viscotack.campaign import Progress
 
     now = of if isinstance(of, Progress) else Progress(*of.counts())
     left = now.cases - now.done - now.failed
     record = {"cases": now.cases, "done": now.done, "failed": now.failed, "left": left}
-    words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
     if now.elapsed_s:
-        record |= {"elapsed_s": now.elapsed_s, "cases_per_second": now.rate}
-        record |= {"stopped": now.stopped}
-        words.append(f"  {now.elapsed_s:.1f} s, {now.rate:.2f} cases/s")
-    words += lines or []
+        more |= {"elapsed_s": now.elapsed_s, "cases_per_second": now.rate, "stopped": now.stopped}
+    words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
     if left:
         words.append(f"  resume with: viscotack campaign run --out {folder}")
-    return Answer(now, record=lambda: record | more, words=lambda: "\n".join(words))
+    return Answer(now, data=lambda: record | more, words=lambda: {"words": words} | more)

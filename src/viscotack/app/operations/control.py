@@ -1,7 +1,7 @@
 """The operation ``control``: the force table of a contact for controllers, and a release."""
 
 from math import inf
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
@@ -11,12 +11,12 @@ from .parts.record_words import read, rows_of
 from .request import (
     Answer,
     Caller,
-    Contact,
-    Number,
-    Option,
     Output,
     Request,
+    contact,
     csv_file,
+    number,
+    option,
     picture,
 )
 from .simulate import Accuracy, Limit
@@ -56,33 +56,25 @@ class Control(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "The contact in SI, on a rigid machine; the speed of its protocol does not matter.",
-            indenters=INDENTERS,
-            spelling="case",
-        ),
-    ]
-    slowest: Annotated[float, Number("Slowest speed of the contact.", unit="m/s", above=0)]
-    fastest: Annotated[float, Number("Fastest speed of the contact.", unit="m/s", above=0)]
-    tolerance: Annotated[
-        float,
-        Number("Largest miss of the interpolation, over the pull-off force.", above=0, most=0.2),
-    ] = 0.01
-    name: Annotated[str, Option("Name of the model, and prefix of the functions in C.")] = "contact"
-    wanted: Annotated[float | None, Number("Pull-off force of the release.", unit="N", above=0)] = (
-        None
+    problem: Any = contact(
+        "The contact in SI, on a rigid machine; the speed of its protocol does not matter.",
+        indenters=INDENTERS,
+        spelling="case",
+        default=...,
     )
-    stiffness: Annotated[
-        float | None, Number("Stiffness of the rig; rigid if left out.", unit="N/m", above=0)
-    ] = None
-    period: Annotated[
-        float, Number("Time between two ticks of the controller.", unit="s", above=0)
-    ] = 1e-3
-    drive_limit: Annotated[
-        float | None, Number("Largest speed of the drive.", unit="m/s", above=0)
-    ] = None
+    slowest: float = number("Slowest speed of the contact.", "m/s", above=0, default=...)
+    fastest: float = number("Fastest speed of the contact.", "m/s", above=0, default=...)
+    tolerance: float = number(
+        "Largest miss of the interpolation, over the pull-off force.",
+        above=0,
+        most=0.2,
+        default=0.01,
+    )
+    name: str = option("Name of the model, and prefix of the functions in C.", default="contact")
+    wanted: float | None = number("Pull-off force of the release.", "N", above=0)
+    stiffness: float | None = number("Stiffness of the rig; rigid if left out.", "N/m", above=0)
+    period: float = number("Time between two ticks of the controller.", "s", above=0, default=1e-3)
+    drive_limit: float | None = number("Largest speed of the drive.", "m/s", above=0)
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 120.0
 
@@ -134,7 +126,7 @@ class Control(Request):
             files["ticks"] = rows_as_csv(rows_of(read(released, *names)))
         return Answer(
             table if released is None else (table, released),
-            record=lambda: _record(table, released, speed),
+            data=lambda: _record(table, released, speed),
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
             notes=stated.notes,
@@ -166,6 +158,6 @@ def _record(
             "contact_speed_m_per_s": speed,
             "pull_off_force_N": released.pull_off_force,
             "miss": released.miss,
-            "time_s": float(released.time[-1]),
+            "time_s": released.time[-1],
         }
     return found

@@ -2,16 +2,14 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
-
-from pydantic import Field
+from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .parts.record_words import read
 from .predict import OF_METHOD
-from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .request import Answer, Caller, Request, csv_file, file_name, option, picture
 from .simulate import Accuracy, Limit
 
 
@@ -36,17 +34,14 @@ class OfDesign(Request):
     )
     takes_own: ClassVar = True
 
-    file: Annotated[
-        Path,
-        File(
-            "The [targets], [bounds] of variables, the [interface], and [material] or "
-            "[[materials]].",
-            metavar="DESIGN.toml",
-            argument=True,
-        ),
-    ]
-    confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
-    seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
+    file: Path = file_name(
+        "The [targets], [bounds] of variables, the [interface], and [material] or [[materials]].",
+        metavar="DESIGN.toml",
+        argument=True,
+        default=...,
+    )
+    confirm: int = option("Number of designs that are simulated.", default=3, ge=0, le=3)
+    seed: int = option("Seed of the search.", default=0, ge=0, le=2**32 - 1)
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 60.0
 
@@ -76,7 +71,7 @@ class OfDesign(Request):
         warned = [_cautions(one.choice, stated) for one in found.candidates]
         return Answer(
             found,
-            record=lambda: _record(found, rows, front) | {"cautions": warned},
+            data=lambda: _record(found, rows, front) | {"cautions": warned},
             words=lambda: _shown(found, rows, warned),
             files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
             pictures={
@@ -131,17 +126,13 @@ def _front_row(one: Any) -> dict[str, Any]:
 def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
     """Return the numbers of the answer."""
     return {
-        "meets": found.meets,
         "designs": rows,
         "front": front,
-        "binding": list(found.binding),
-        "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
         "limits": [
             read(each, "target", "wanted", "reach", "cause", "excludes", "why")
             for each in found.limits
         ],
-        "predictions": found.predictions,
-        "tier": found.tier,
+        **read(found, "meets", "binding", "elasticities", "predictions", "tier"),
     }
 
 
@@ -180,7 +171,7 @@ def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> d
     return {
         "words": words,
         "designs": rows,
-        "binding": list(found.binding),
+        "binding": found.binding,
         "designs_of_the_front": len(found.front) or None,
         "d ln P/d ln x": {f"of {name}": dict(each) for name, each in found.elasticities.items()},
         "cautions": [*warned, OF_METHOD],

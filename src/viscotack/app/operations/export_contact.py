@@ -1,13 +1,8 @@
 """The operation ``export contact``: a contact with memory for other simulators."""
 
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
-from viscotack.units import readable
-
-from .request import Answer, Caller, Contact, Option, Output, Request
-
-if TYPE_CHECKING:
-    from viscotack.design.control import ReducedContact
+from .request import Answer, Caller, Request, contact, main_file, option
 
 
 class ExportContact(Request):
@@ -21,27 +16,19 @@ class ExportContact(Request):
 
     word: ClassVar = "export contact"
     outputs: ClassVar = (
-        Output(
-            "output",
-            "Write the header to this file; - is standard output.",
-            flags=("-o", "--output"),
-            usual="-",
-            endings=(".h",),
-        ),
+        main_file("Write the header to this file; - is standard output.", ".h", usual="-"),
     )
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "A sphere on a half-space in SI; its protocol does not matter.",
-            indenters=("sphere",),
-            spelling="case",
-        ),
-    ]
-    name: Annotated[
-        str, Option("Type of the contact, and prefix of the functions in C.", metavar="NAME")
-    ] = "contact"
+    problem: Any = contact(
+        "A sphere on a half-space in SI; its protocol does not matter.",
+        indenters=("sphere",),
+        spelling="case",
+        default=...,
+    )
+    name: str = option(
+        "Type of the contact, and prefix of the functions in C.", metavar="NAME", default="contact"
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Reduce the contact and write it."""
@@ -51,36 +38,19 @@ class ExportContact(Request):
 
         stated = self.stated(caller)
         problem: Any = stated.problem
-        contact = reduced_contact(problem)
-        text = reduced_header(contact, self.name)
+        found = reduced_contact(problem)
+        text = reduced_header(found, self.name)
+        record = {
+            "contact": found.of,
+            "range": found.range,
+            "cells": found.node.size - 1,
+            "modes": found.modulus.size,
+        }
+        shown = record | {"largest_stiffness_at_1_mm_N_per_m": found.stiffness(1e-3)}
         return Answer(
-            contact,
-            record=lambda: _record(contact, text),
-            words=lambda: _words(contact) if "output" in caller.wants else text.rstrip("\n"),
+            found,
+            data=lambda: record | {"text": text},
+            words=lambda: shown if "output" in caller.wants else text.rstrip("\n"),
             files={"output": as_text(lambda: text)},
             notes=stated.notes,
         )
-
-
-def _record(contact: "ReducedContact", text: str) -> dict[str, Any]:
-    """Return the numbers of the answer."""
-    return {
-        "contact": contact.of,
-        "range": contact.range,
-        "cells": contact.node.size - 1,
-        "modes": contact.modulus.size,
-        "text": text,
-    }
-
-
-def _words(contact: "ReducedContact") -> str:
-    """Return the answer as lines."""
-    return "\n".join(
-        [
-            contact.of,
-            f"range: {contact.range}",
-            f"state: {contact.node.size - 1} cells of {contact.modulus.size} modes",
-            "stiffness at a contact radius of 1 mm: at most "
-            f"{readable(contact.stiffness(1e-3), 'N/m')}",
-        ]
-    )

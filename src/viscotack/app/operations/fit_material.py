@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 
 from .parts.dma import Dma
 from .parts.shifting import Shifting
-from .request import Answer, Caller, File, Number, Option, Output, picture, quoted
+from .request import Answer, Caller, file_name, main_file, number, option, picture, quoted
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport
@@ -37,41 +37,31 @@ class FitMaterial(Dma, Shifting):
 
     word: ClassVar = "material fit"
     outputs: ClassVar = (
-        Output(
-            "output",
-            "Write the passport to this file; - is standard output.",
-            flags=("-o", "--output"),
-            endings=(".toml",),
-        ),
+        main_file("Write the passport to this file; - is standard output.", ".toml"),
         picture(),
     )
 
-    files: Annotated[
-        tuple[Path, ...],
-        File(
-            "Files of the instrument; several files are sweeps of one material.",
-            metavar="FILE...",
-            argument=True,
-        ),
-    ]
-    poisson_ratio: Annotated[
-        float, Number("0.5 for rubber, about 0.35 for a glass.", example="0.5")
-    ]
-    model: Annotated[
-        Model, Option("Model; best: fit all and select by an information criterion.")
-    ] = "best"
-    arms: Annotated[
-        int | None, Option("Number of relaxation times of a Prony series; default: by the data.")
-    ] = None
-    glassy_modulus: Annotated[
-        float | None,
-        Number('Known modulus that is not fitted, "3 GPa"; not for a Prony series.', unit="Pa"),
-    ] = None
-    rubbery_modulus: Annotated[float | None, Number("Known modulus, as above.", unit="Pa")] = None
-    loss: Annotated[bool, Option("Whether to fit the loss modulus as well.")] = True
-    level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
-    name: Annotated[str | None, Option("Name of the material; default: the file name.")] = None
-    source: Annotated[str, Option("Who measured it, for the passport.")] = ""
+    files: tuple[Path, ...] = file_name(
+        "Files of the instrument; several files are sweeps of one material.",
+        metavar="FILE...",
+        argument=True,
+        default=...,
+    )
+    poisson_ratio: float = number(
+        "0.5 for rubber, about 0.35 for a glass.", example="0.5", default=...
+    )
+    model: Model = option(
+        "Model; best: fit all and select by an information criterion.", default="best"
+    )
+    arms: int | None = option("Number of relaxation times of a Prony series; default: by the data.")
+    glassy_modulus: float | None = number(
+        'Known modulus that is not fitted, "3 GPa"; not for a Prony series.', "Pa"
+    )
+    rubbery_modulus: float | None = number("Known modulus, as above.", "Pa")
+    loss: bool = option("Whether to fit the loss modulus as well.", default=True)
+    level: float = number("Confidence level of the intervals.", default=0.9)
+    name: str | None = option("Name of the material; default: the file name.")
+    source: str = option("Who measured it, for the passport.", default="")
 
     def check(self) -> None:
         """Check that options for sweeps are given for sweeps only."""
@@ -95,7 +85,7 @@ class FitMaterial(Dma, Shifting):
         words = "\n".join([report.words(), *shifted])
         return Answer(
             (report, passport),
-            record=lambda: fit_record(report, passport),
+            data=lambda: fit_record(report, passport),
             words=lambda: words,
             files=(
                 {}
@@ -163,7 +153,7 @@ def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
     issued = passport is not None
     return {
         "model": report.model,
-        "notes": list(report.observed.source.notes),
+        "notes": report.observed.source.notes,
         "table": material_table(report.material) if issued else None,
         "passport": passport_text(passport) if issued else None,
         "fit": drawn.fit(report),

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 INDENTERS = ("sphere", "punch", "profile", "disc")
 ROUND = ("sphere", "profile", "disc")
 _BY_RADIUS = ("sphere", "disc")
-_STARTS = ("preload", "preload-force", "preload-radius", "apart")
+_STARTS = ("preload", "preload_force", "preload_radius", "apart")
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ FLAGS: Mapping[str, Flag] = {
     ),
     "size": Flag("Half width of the punch over a0.", "punch.half_width", indenters=("punch",)),
     "cohesion": Flag("Strength over E0*.", "groups.cohesion", indenters=("punch",)),
-    "profile-exponent": Flag(
+    "profile_exponent": Flag(
         "Exponent q of the profile z = A r^q, from 1 (cone).",
         "shape.exponent",
         indenters=("profile",),
@@ -106,7 +106,7 @@ FLAGS: Mapping[str, Flag] = {
         indenters=("profile",),
         metavar="FILE.csv",
     ),
-    "modulus-ratio": Flag("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio", "-"),
+    "modulus_ratio": Flag("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio", "-"),
     "exponent": Flag(
         "Exponent n of the modified power law.", "material.exponent", "material.exponent"
     ),
@@ -115,13 +115,13 @@ FLAGS: Mapping[str, Flag] = {
         "groups.preload",
         "protocol.preload_depth",
     ),
-    "preload-force": Flag(
+    "preload_force": Flag(
         "Or: force of the relaxed start, positive in compression, in 1.5 pi R dg0; of a punch the "
         "mean stress, in the strength.",
         "groups.preload_force",
         "protocol.preload_force",
     ),
-    "preload-radius": Flag(
+    "preload_radius": Flag(
         "Or: contact radius of the relaxed start, in (pi R^2 dg0/E0*)^(1/3).",
         "groups.preload_radius",
         "protocol.preload_radius",
@@ -163,28 +163,28 @@ FLAGS: Mapping[str, Flag] = {
         si="shape.radius",
         indenters=_BY_RADIUS,
     ),
-    "half-width": Flag(
+    "half_width": Flag(
         'In SI: half width of the punch, "1 mm".', si="punch.half_width", indenters=("punch",)
     ),
     "speed": Flag('In SI: retraction speed, "10 um/s".', si="protocol.speed"),
-    "work-of-adhesion": Flag(
+    "work_of_adhesion": Flag(
         'In SI: work of adhesion dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"
     ),
-    "equilibrium-gap": Flag(
+    "equilibrium_gap": Flag(
         'In SI: range of the attraction h0, "100 nm".', si="interface.equilibrium_gap"
     ),
     "strength": Flag(
         'In SI, in place of --equilibrium-gap: largest tension of the law, "100 kPa".',
         si="interface.strength",
     ),
-    "rubbery-modulus": Flag(
+    "rubbery_modulus": Flag(
         'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; not with a passport.',
         si="material.rubbery_modulus",
     ),
-    "contact-modulus": Flag(
+    "contact_modulus": Flag(
         'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".', si="-"
     ),
-    "poisson-ratio": Flag(
+    "poisson_ratio": Flag(
         "In SI: Poisson ratio of the solid, 0.5 when left out.", si="material.poisson_ratio"
     ),
     "tau0": Flag('In SI: time of the solid, "100 ms"; not with a passport.', si="material.tau0"),
@@ -205,7 +205,7 @@ def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
     word : str
         The indenter.
     given : mapping
-        Flags with underscores -> values.
+        Flags -> values.
     caller : Caller
         Resolves names of files.
 
@@ -220,7 +220,7 @@ def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
 
     from .statement import Statement
 
-    said = {name.replace("_", "-"): value for name, value in given.items()}
+    said = dict(given)
     known_flags = flags_of((word,))
     if unknown := [name for name in said if name not in known_flags]:
         raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
@@ -252,7 +252,7 @@ def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
         rest = str(error).partition(error.field.partition(".")[2])[2]
         # what most mean by a preload
         more = "; a force is `preload_force`" if name == "preload" else ""
-        raise InputError(f"{name.replace('-', '_')}{rest}{more}", field=name) from None
+        raise InputError(f"{name}{rest}{more}", field=name) from None
     passport, deviation = passport_of(tables, reading)
     return Statement(problem, deviation, passport)  # type: ignore[arg-type]
 
@@ -302,8 +302,8 @@ def material_table(
     from viscotack.model.problem.tables import OWN
     from viscotack.units import parse
 
-    numbers = ("modulus-ratio", "exponent", "rubbery-modulus", "poisson-ratio", "tau0")
-    others = (*numbers, "contact-modulus")
+    numbers = ("modulus_ratio", "exponent", "rubbery_modulus", "poisson_ratio", "tau0")
+    others = (*numbers, "contact_modulus")
     if words.endswith(".toml") or words in MATERIALS:
         if beside := [name for name in others if name in said]:
             raise InputError(
@@ -311,10 +311,10 @@ def material_table(
                 field=beside[0],
             )
         return {"passport": words}
-    if "contact-modulus" in said:
-        nu = parse(said.get("poisson-ratio", 0.5), "1")
-        modulus = parse(said["contact-modulus"], "Pa") * (1 - nu**2)
-        said = {**said, "rubbery-modulus": f"{modulus!r} Pa"}
+    if "contact_modulus" in said:
+        nu = parse(said.get("poisson_ratio", 0.5), "1")
+        modulus = parse(said["contact_modulus"], "Pa") * (1 - nu**2)
+        said = {**said, "rubbery_modulus": f"{modulus!r} Pa"}
     word, _, rest = words.partition(":")
     kind = nouns.materials.get(word)
     if kind is None or (word == "prony") != bool(rest) and word in ("prony", "power-law", "sls"):
@@ -338,23 +338,22 @@ def material_table(
         )
     table |= dict(zip(own, values, strict=False))
     for name in numbers:
-        key = name.replace("-", "_")
-        of = "glassy_modulus" if key == "modulus_ratio" else key
+        of = "glassy_modulus" if name == "modulus_ratio" else name
         if name in said and of not in cards(kind):
-            raise InputError(f"a solid {word} has no {key}; leave it out", field=name)
-        if name in said and name != "modulus-ratio":
-            table[key] = said[name]
-    if "modulus-ratio" in said and not in_si:
-        table["modulus_ratio"] = said["modulus-ratio"]
+            raise InputError(f"a solid {word} has no {name}; leave it out", field=name)
+        if name in said and name != "modulus_ratio":
+            table[name] = said[name]
+    if "modulus_ratio" in said and not in_si:
+        table["modulus_ratio"] = said["modulus_ratio"]
     if in_si:
-        table |= {"poisson_ratio": 0.5} if "poisson-ratio" not in said else {}
-        if "modulus-ratio" in said and "rubbery-modulus" in said:
-            ratio = parse(said["modulus-ratio"], "1")
+        table |= {"poisson_ratio": 0.5} if "poisson_ratio" not in said else {}
+        if "modulus_ratio" in said and "rubbery_modulus" in said:
+            ratio = parse(said["modulus_ratio"], "1")
             if not 0 < ratio <= 1:
                 raise InputError(
-                    f"modulus_ratio must lie in (0, 1], got {ratio:g}", field="modulus-ratio"
+                    f"modulus_ratio must lie in (0, 1], got {ratio:g}", field="modulus_ratio"
                 )
-            table["glassy_modulus"] = f"{parse(said['rubbery-modulus'], 'Pa') / ratio!r} Pa"
+            table["glassy_modulus"] = f"{parse(said['rubbery_modulus'], 'Pa') / ratio!r} Pa"
     return table
 
 
@@ -376,20 +375,23 @@ def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any)
     solid = said.get("material", _usual(word))
     kind = nouns.materials.get(solid.partition(":")[0])
     elastic, moved = solid == "elastic", "move" in said
-    of_solid = [name.replace("_", "-") for name in needs_of(solid, nouns, in_si=in_si)]
+    of_solid = needs_of(solid, nouns, in_si=in_si)
     if in_si:
-        needed = ["half-width" if word == "punch" else "radius", "work-of-adhesion", *of_solid]
-        needed += ["rubbery-modulus"] if kind and "contact-modulus" not in said else []
-        needed += [] if {"equilibrium-gap", "strength"} & said.keys() else ["equilibrium-gap"]
-        needed += ["thickness"] if word == "punch" else []
+        needed = ["half_width" if word == "punch" else "radius", "work_of_adhesion", *of_solid]
+        modulus, gap, thickness = "rubbery_modulus", "equilibrium_gap", []
+        if word == "punch":
+            modulus, gap, thickness = "contact_modulus", "strength", ["thickness"]
+        needed += [modulus] if kind and "contact_modulus" not in said else []
+        needed += [] if {"equilibrium_gap", "strength"} & said.keys() else [gap]
+        needed += thickness
         needed += [] if moved else ["speed"]
     else:
         sizes = {"punch": ["size", "thickness", "cohesion"]}.get(word, ["tabor"])
-        tip = ["profile-exponent"] if word == "profile" and "points" not in said else []
+        tip = ["profile_exponent"] if word == "profile" and "points" not in said else []
         needed = [*sizes, *tip, *of_solid, *([] if moved or elastic else ["rate"])]
     if "bonded" in said and "thickness" not in said:
         raise InputError("bonded needs a layer; give its thickness as well", field="bonded")
-    if "points" in said and "profile-exponent" in said:
+    if "points" in said and "profile_exponent" in said:
         raise InputError("give either profile_exponent or points, not both", field="points")
     starts = [name for name in _STARTS if name in said]
     of = [name for name in _STARTS if word in FLAGS[name].indenters]

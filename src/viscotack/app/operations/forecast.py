@@ -9,9 +9,10 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
+from .parts.record_words import read
 from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
-from .request import Answer, Caller, File, Number, Output, Request, Text, csv_file, picture
+from .request import Answer, Caller, File, Request, csv_file, main_file, number, picture, text
 from .simulate import HowLong
 
 _MOST = 50  # speeds between two ends
@@ -46,36 +47,23 @@ class Wish(Request):
 
     study: StudyFile
 
-    speed: Annotated[
-        tuple[Any, ...],
-        Text(
-            'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
-            "the range of the series.",
-            metavar="SPEED|FROM..TO",
-            to=speeds_of,
-        ),
-    ] = ()
-    preload: Annotated[float | None, Number("Preload; default: that of the series.", unit="N")] = (
-        None
+    speed: tuple[Any, ...] = text(
+        'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
+        "the range of the series.",
+        metavar="SPEED|FROM..TO",
+        to=speeds_of,
+        default=(),
     )
-    temperature: Annotated[
-        float | None,
-        Number(
-            'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
-            "of the times.",
-            unit="K",
-        ),
-    ] = None
-    dwell: Annotated[
-        float | None,
-        Number(
-            "Dwell time under the preload; default: full relaxation. Needs --approach-speed.",
-            unit="s",
-        ),
-    ] = None
-    approach_speed: Annotated[
-        float | None, Number("Approach speed; needs --dwell.", unit="m/s")
-    ] = None
+    preload: float | None = number("Preload; default: that of the series.", "N")
+    temperature: float | None = number(
+        'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
+        "of the times.",
+        "K",
+    )
+    dwell: float | None = number(
+        "Dwell time under the preload; default: full relaxation. Needs --approach-speed.", "s"
+    )
+    approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s")
 
     def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""
@@ -134,7 +122,7 @@ class Forecast(Wish):
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
-            record=lambda: _record(found.fit, forecast, rows),
+            data=lambda: _record(found.fit, forecast, rows),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
             notes=refusals(found.survey),
@@ -150,15 +138,7 @@ class Report(Wish):
     """
 
     word: ClassVar = "report"
-    outputs: ClassVar = (
-        Output(
-            "output",
-            "The page, FILE.html.",
-            flags=("-o", "--output"),
-            needed=True,
-            endings=(".html", ".htm"),
-        ),
-    )
+    outputs: ClassVar = (main_file("The page, FILE.html.", ".html", ".htm", needed=True),)
 
     time_limit: HowLong = None
 
@@ -170,7 +150,7 @@ class Report(Wish):
         found, forecast = _forecast(self, caller, IdentifyRates)
         return Answer(
             (found, forecast),
-            record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
+            data=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
             words=lambda: {"words": [*found.fit.words, *forecast.words]},
             files={"output": as_text(lambda: page(found, forecast))},
             notes=refusals(found.survey),
@@ -206,10 +186,7 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
     return {
         **interface_record(fit),
         "describes_tests": not fit.misfit,
-        "level": forecast.level,
-        "preload_N": forecast.preload,
-        "temperature_K": forecast.temperature,
-        "dwell_s": forecast.dwell,
+        **read(forecast, "level", "preload_N", "temperature_K", "dwell_s"),
         "forecast": rows,
         "words": [*fit.words, *forecast.words],
     }

@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
-from pydantic import Field
-
 from viscotack.errors import InputError
 
-from .parts.layer import BONDED, THICKNESS, body_of
+from .parts.layer import OnLayer
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, Named, Number, Option, Output, picture
+from .request import Answer, Caller, Number, main_file, named, number, option, picture, switch
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -42,33 +40,24 @@ class IdentifySlow(Rig):
     outputs: ClassVar = (picture(),)
 
     radius: Radius
-    cycle: Annotated[
-        int, Option("Number of the cycle in the files, from 1."), Field(ge=1, le=10**6)
-    ] = 1
-    model: Annotated[tuple[Model, ...], Option("Models to compare; default: all four.")] = ()
-    against: Annotated[
-        Literal["radius", "depth"] | None,
-        Option("Abscissa: contact radius or depth; default: the radius if the file contains it."),
-    ] = None
-    contact_modulus: Annotated[
-        float | None,
-        Number(
-            'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
-            "uncertainty is known, else fitted.",
-            unit="Pa",
-        ),
-    ] = None
-    contact_modulus_uncertainty: Annotated[
-        float | None, Number("Its standard uncertainty; needed with it.", unit="Pa")
-    ] = None
-    material: Annotated[
-        Any,
-        Named(
-            "Passport or published name of the solid, to check that the test was slow; default: "
-            "not checked.",
-            metavar="PASSPORT",
-        ),
-    ] = None
+    cycle: int = option("Number of the cycle in the files, from 1.", default=1, ge=1, le=10**6)
+    model: tuple[Model, ...] = option("Models to compare; default: all four.", default=())
+    against: Literal["radius", "depth"] | None = option(
+        "Abscissa: contact radius or depth; default: the radius if the file contains it."
+    )
+    contact_modulus: float | None = number(
+        'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
+        "uncertainty is known, else fitted.",
+        "Pa",
+    )
+    contact_modulus_uncertainty: float | None = number(
+        "Its standard uncertainty; needed with it.", "Pa"
+    )
+    material: Any = named(
+        "Passport or published name of the solid, to check that the test was slow; default: "
+        "not checked.",
+        metavar="PASSPORT",
+    )
     level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
@@ -94,7 +83,7 @@ class IdentifySlow(Rig):
         )
         return Answer(
             fit,
-            record=lambda: slow_record(fit),
+            data=lambda: slow_record(fit),
             words=lambda: _slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
             drawn=lambda: {
@@ -109,31 +98,20 @@ class Series(Rig):
     """Files of a rig that are one rate series."""
 
     radius: Radius
-    preload: Annotated[
-        float | None,
-        Number(
-            'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of '
-            "retraction.",
-            unit="N",
-        ),
-    ] = None
-    work_of_adhesion: Annotated[
-        float | None,
-        Number(
-            'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
-            unit="J/m^2",
-        ),
-    ] = None
-    work_of_adhesion_uncertainty: Annotated[
-        float | None,
-        Number("Its standard uncertainty; needed with it.", unit="J/m^2"),
-    ] = None
-    scatter: Annotated[
-        float,
-        Number(
-            'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
-        ),
-    ] = 0.0
+    preload: float | None = number(
+        'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of retraction.',
+        "N",
+    )
+    work_of_adhesion: float | None = number(
+        'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.', "J/m^2"
+    )
+    work_of_adhesion_uncertainty: float | None = number(
+        "Its standard uncertainty; needed with it.", "J/m^2"
+    )
+    scatter: float = number(
+        'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
+        default=0.0,
+    )
     level: Level = 0.9
 
     @property
@@ -166,7 +144,7 @@ class Identified:
     computed: Any = None
 
 
-class IdentifyRates(Series):
+class IdentifyRates(Series, OnLayer):
     """Identify work of adhesion and range of attraction from pull-offs at several speeds.
 
     The steady-crack contact model is fitted to the true speed and pull-off force of every cycle;
@@ -183,61 +161,40 @@ class IdentifyRates(Series):
 
     word: ClassVar = "identify rates"
     outputs: ClassVar = (
-        Output(
-            "output",
+        main_file(
             "Write the study, for `viscotack forecast` and `viscotack report`.",
-            flags=("-o", "--output"),
+            ".toml",
             metavar="STUDY",
-            endings=(".toml",),
         ),
         picture(),
         picture("Draw the posterior of the interface.", "corner"),
     )
 
     material: Solid
-    thickness: Annotated[float | None, THICKNESS] = None
-    bonded: Annotated[float | None, BONDED] = None
-    temperature: Annotated[
-        float | None,
-        Number(
-            'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
-            "passport.",
-            unit="K",
-        ),
-    ] = None
-    temperature_uncertainty: Annotated[
-        float | None,
-        Number(
-            'Standard uncertainty of this temperature, "0.5 K"; default: 2 K. It changes the times '
-            "of the material by the shift of the passport.",
-            unit="K",
-        ),
-    ] = None
-    curves: Annotated[
-        bool,
-        Option("Fit whole curves by their travel between forces; one speed is then sufficient."),
-    ] = False
-    growth: Annotated[
-        bool,
-        Option(
-            "Fit an interface that grows with the opening speed: amount, exponent, significance. "
-            "Takes minutes, which a forecast from the study does not repeat."
-        ),
-    ] = False
-    history: Annotated[
-        bool,
-        Option(
-            "Compute the forces with approach and dwell of each test, mostly by simulation; "
-            "default: contacts relaxed under the preload."
-        ),
-    ] = False
+    temperature: float | None = number(
+        'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
+        "passport.",
+        "K",
+    )
+    temperature_uncertainty: float | None = number(
+        'Standard uncertainty of this temperature, "0.5 K"; default: 2 K. It changes the times '
+        "of the material by the shift of the passport.",
+        "K",
+    )
+    curves: bool = switch(
+        "Fit whole curves by their travel between forces; one speed is then sufficient."
+    )
+    growth: bool = switch(
+        "Fit an interface that grows with the opening speed: amount, exponent, significance. "
+        "Takes minutes, which a forecast from the study does not repeat."
+    )
+    history: bool = switch(
+        "Compute the forces with approach and dwell of each test, mostly by simulation; "
+        "default: contacts relaxed under the preload."
+    )
     time_limit: HowLong = None
-    title: Annotated[str, Option("Title of the report.")] = ""
-    notes: Annotated[str, Option("Notes for the report.")] = ""
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        body_of(self.thickness, self.bonded)
+    title: str = option("Title of the report.", default="")
+    notes: str = option("Notes for the report.", default="")
 
     def identified(self, caller: Caller, kept: Path | None = None) -> Identified:
         """Read the files and fit the interface.
@@ -271,7 +228,7 @@ class IdentifyRates(Series):
         series = series_of(
             found,
             solid,
-            body=body_of(self.thickness, self.bonded),
+            body=self.body,
             range_bound=bound,
             **self.given,
             **{name: getattr(self, name) for name in names},
@@ -307,27 +264,19 @@ class IdentifyEdge(Series):
 
     word: ClassVar = "identify edge"
     outputs: ClassVar = (
-        Output(
-            "output",
-            "Write the study, for `viscotack forecast`.",
-            flags=("-o", "--output"),
-            metavar="STUDY",
-            endings=(".toml",),
-        ),
+        main_file("Write the study, for `viscotack forecast`.", ".toml", metavar="STUDY"),
         picture(),
         picture("Draw the posterior of the law.", "corner"),
     )
 
-    contact_modulus: Annotated[
-        float,
-        Number(
-            'E* of the solid at rest, "2 MPa". v0 is proportional to its cube root; forecasts with '
-            "a stiff rig do not depend on it.",
-            unit="Pa",
-            above=0,
-            example='"2 MPa"',
-        ),
-    ]
+    contact_modulus: float = number(
+        'E* of the solid at rest, "2 MPa". v0 is proportional to its cube root; forecasts with '
+        "a stiff rig do not depend on it.",
+        "Pa",
+        above=0,
+        example='"2 MPa"',
+        default=...,
+    )
 
     def identified(self, caller: Caller, kept: Path | None = None) -> Identified:
         """Read the files and fit the law; no forces are kept."""
@@ -357,7 +306,7 @@ def _answer(
     fit = found.fit
     return Answer(
         found,
-        record=lambda: record_of(fit),
+        data=lambda: record_of(fit),
         words=lambda: {n: x for n, x in record_of(fit).items() if n not in _SAID},
         files={"output": _written(found, caller)},
         pictures={

@@ -1,12 +1,13 @@
 """The operation ``identify approach``: range of attraction from the forces before the contact."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
+from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import solid_of
-from .request import Answer, Caller, Named, Number
+from .request import Answer, Caller, named, number
 
 
 class IdentifyApproach(Rig):
@@ -24,30 +25,19 @@ class IdentifyApproach(Rig):
 
     word: ClassVar = "identify approach"
 
-    radius: Annotated[float, Number('Sphere radius, "7.5 um".', unit="m", example='"7.5 um"')]
-    contact_modulus: Annotated[
-        float | None,
-        Number(
-            'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.',
-            unit="Pa",
-        ),
-    ] = None
-    material: Annotated[
-        Any,
-        Named(
-            "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
-            "once is the other limit.",
-            metavar="PASSPORT",
-        ),
-    ] = None
-    work_of_adhesion: Annotated[
-        float | None,
-        Number(
-            'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.',
-            unit="J/m^2",
-        ),
-    ] = None
-    level: Annotated[float, Number("Confidence level of interval and bound.")] = 0.9
+    radius: float = number('Sphere radius, "7.5 um".', "m", example='"7.5 um"', default=...)
+    contact_modulus: float | None = number(
+        'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.', "Pa"
+    )
+    material: Any = named(
+        "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
+        "once is the other limit.",
+        metavar="PASSPORT",
+    )
+    work_of_adhesion: float | None = number(
+        'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"
+    )
+    level: float = number("Confidence level of interval and bound.", default=0.9)
 
     def answer(self, caller: Caller) -> Answer:
         """Bound the range by every approach."""
@@ -75,12 +65,7 @@ class IdentifyApproach(Rig):
             raise InputError("; ".join(dict.fromkeys(refused)), field="files")
         return Answer(
             fits,
-            record=lambda: {"approaches": [_record(fit) for fit in fits]},
-            words=lambda: "\n".join(
-                f"{cycle + 1}: {line}" if first else f"   {line}"
-                for cycle, fit in enumerate(fits)
-                for first, line in zip((True, *(False,) * len(fit.words)), fit.words, strict=False)
-            ),
+            data=lambda: {"approaches": [_record(fit) for fit in fits]},
             notes=(*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused))),
         )
 
@@ -88,16 +73,10 @@ class IdentifyApproach(Rig):
 def _record(fit: Any) -> dict[str, Any]:
     """Return the numbers of one approach."""
     interval = fit.equilibrium_gap
-    return {
-        "bound_m": fit.bound,
+    names = ("bound_m", "level", "attraction_N", "noise_N", "jump_in_force_N", "step_m", "words")
+    return read(fit, *names) | {
         "equilibrium_gap_m": fit.likely,
         "interval_m": None if interval is None else [interval.low, interval.high],
-        "level": fit.level,
-        "attraction_N": fit.attraction,
-        "noise_N": fit.noise,
-        "jump_in_force_N": fit.jump_in_force,
-        "works_of_adhesion_J_m2": list(fit.works),
-        "step_m": fit.step,
+        "works_of_adhesion_J_m2": fit.works,
         "samples_during_jump": fit.during,
-        "words": list(fit.words),
     }

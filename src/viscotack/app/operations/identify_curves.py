@@ -1,12 +1,12 @@
 """The operation ``identify curves``: work of adhesion and modulus of every curve of a folder."""
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 
 from .identify import Level, Radius
 from .parts.rig import Rig, refusals
-from .request import Answer, Caller, Number, Option, csv_file, picture
+from .request import Answer, Caller, csv_file, number, option, picture
 
 
 class IdentifyCurves(Rig):
@@ -28,17 +28,16 @@ class IdentifyCurves(Rig):
     )
 
     radius: Radius
-    model: Annotated[
-        Literal["jkr", "dmt"],
-        Option("Elastic contact: jkr for soft and large spheres, dmt for stiff and small ones."),
-    ] = "jkr"
-    contact_modulus: Annotated[
-        float | None,
-        Number('Known E0* of the relaxed solid, "1.94 MPa"; default: fitted.', unit="Pa"),
-    ] = None
-    contact_modulus_uncertainty: Annotated[
-        float | None, Number("Its standard uncertainty; needed with it.", unit="Pa")
-    ] = None
+    model: Literal["jkr", "dmt"] = option(
+        "Elastic contact: jkr for soft and large spheres, dmt for stiff and small ones.",
+        default="jkr",
+    )
+    contact_modulus: float | None = number(
+        'Known E0* of the relaxed solid, "1.94 MPa"; default: fitted.', "Pa"
+    )
+    contact_modulus_uncertainty: float | None = number(
+        "Its standard uncertainty; needed with it.", "Pa"
+    )
     level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
@@ -61,12 +60,12 @@ class IdentifyCurves(Rig):
         rows, means = [_curve(fit) for fit in fits], [_group(group) for group in groups]
         return Answer(
             groups,
-            record=lambda: {
+            data=lambda: {
                 "model": self.model,
                 "level": self.level,
                 "curves": rows,
                 "repeats": means,
-                "refused": list(refused),
+                "refused": refused,
             },
             words=lambda: {"model": self.model, "repeats": means},
             files={"csv": rows_as_csv(rows), "repeats": rows_as_csv(means)},

@@ -45,7 +45,7 @@ class IdentifyDwell(Rig):
         )
         return Answer(
             fit,
-            record=lambda: _record(fit),
+            data=lambda: _record(fit),
             pictures={"plot": lambda: draw_dwells(fit)},
             notes=refusals(found),
         )
@@ -53,13 +53,11 @@ class IdentifyDwell(Rig):
 
 def _record(fit: Any) -> dict[str, Any]:
     """Return the numbers of the answer."""
-    low, high = fit.reference_time
     tails = {"work_of_adhesion": "_J_m2", "reference_time": "_s"}
     return {
         **read(fit, "times_s", "forces_N", "work_of_adhesion_J_m2", "growth_per_decade"),
-        "growth_interval": list(fit.interval),
-        **read(fit, "level", "scatter", "law"),
+        "growth_interval": fit.interval,
+        **read(fit, "level", "scatter", "law", "words"),
         "interface": {f"{name}{tails.get(name, '')}": x for name, x in fit.parameters.items()},
-        "reference_time_interval_s": [low, high if high < float("inf") else None],
-        "words": list(fit.words),
+        "reference_time_interval_s": fit.reference_time,
     }

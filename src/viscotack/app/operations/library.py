@@ -22,7 +22,7 @@ class ListMaterials(Request):
         found = library()
         return Answer(
             found,
-            record=lambda: {"materials": found},
+            data=lambda: {"materials": found},
             words=lambda: "\n".join(_line(one) for one in found),
         )
 

@@ -3,14 +3,12 @@
 from itertools import product
 from typing import Annotated, Any, ClassVar
 
-from pydantic import Field
-
 from viscotack.errors import InputError
 
 from .forecast import StudyFile, fitted, speeds_of
 from .parts.record_words import read
 from .parts.rig import refusals
-from .request import Answer, Caller, Number, Option, Request, Text, csv_file, picture
+from .request import Answer, Caller, Number, Request, csv_file, number, option, picture, text
 from .simulate import HowLong
 
 Loads = Annotated[
@@ -46,52 +44,36 @@ class NextTest(Request):
     )
 
     study: StudyFile
-    speed: Annotated[
-        tuple[Any, ...],
-        Text(
-            'Speeds of the tests, "30 um/s" or a range "1 um/s..1 mm/s"; can be repeated.',
-            metavar="SPEED|FROM..TO",
-            to=speeds_of,
-        ),
-    ]
+    speed: tuple[Any, ...] = text(
+        'Speeds of the tests, "30 um/s" or a range "1 um/s..1 mm/s"; can be repeated.',
+        metavar="SPEED|FROM..TO",
+        to=speeds_of,
+        default=...,
+    )
     preload: Loads = ()
     radius: Radii = ()
-    dwell: Annotated[
-        tuple[float, ...],
-        Number(
-            "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
-            "--approach-speed.",
-            unit="s",
-        ),
-    ] = ()
-    approach_speed: Annotated[
-        float | None, Number("Approach speed; needs --dwell.", unit="m/s", above=0)
-    ] = None
-    forecast_speed: Annotated[
-        tuple[Any, ...],
-        Text(
-            "Speed of the wanted forecast, or a range; can be repeated. Default: the interface "
-            "is wanted.",
-            metavar="SPEED|FROM..TO",
-            to=speeds_of,
-        ),
-    ] = ()
-    forecast_preload: Annotated[
-        float | None, Number("Preload of the wanted forecast.", unit="N", above=0)
-    ] = None
-    forecast_radius: Annotated[
-        float | None, Number("Sphere radius of the wanted forecast.", unit="m", above=0)
-    ] = None
-    noise: Annotated[
-        float | None,
-        Number(
-            'Relative standard deviation of the force of one test, "3 %"; default: that of the '
-            "series.",
-            above=0,
-        ),
-    ] = None
-    repeats: Annotated[int, Option("Repetitions of each test."), Field(ge=1, le=1000)] = 1
-    count: Annotated[int, Option("Length of the best sequence."), Field(ge=1, le=20)] = 3
+    dwell: tuple[float, ...] = number(
+        "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
+        "--approach-speed.",
+        "s",
+        default=(),
+    )
+    approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s", above=0)
+    forecast_speed: tuple[Any, ...] = text(
+        "Speed of the wanted forecast, or a range; can be repeated. Default: the interface "
+        "is wanted.",
+        metavar="SPEED|FROM..TO",
+        to=speeds_of,
+        default=(),
+    )
+    forecast_preload: float | None = number("Preload of the wanted forecast.", "N", above=0)
+    forecast_radius: float | None = number("Sphere radius of the wanted forecast.", "m", above=0)
+    noise: float | None = number(
+        'Relative standard deviation of the force of one test, "3 %"; default: that of the series.',
+        above=0,
+    )
+    repeats: int = option("Repetitions of each test.", default=1, ge=1, le=1000)
+    count: int = option("Length of the best sequence.", default=3, ge=1, le=20)
     time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
@@ -135,7 +117,7 @@ class NextTest(Request):
         what = "the forecast" if wanted else "ln(work) and ln(range)"
         return Answer(
             found,
-            record=lambda: {
+            data=lambda: {
                 "now": found.now,
                 "noise": found.noise,
                 "tests": rows,

@@ -1,7 +1,7 @@
 """The operations ``material show``, ``convert`` and ``export``: passports and other formats."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -9,7 +9,19 @@ from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
 from .parts.solid import APassport, passport_of
-from .request import Answer, Caller, Named, Number, Option, Output, Request, Text, quoted, two_of
+from .request import (
+    Answer,
+    Caller,
+    Request,
+    main_file,
+    named,
+    number,
+    option,
+    quoted,
+    switch,
+    text,
+    two_of,
+)
 
 if TYPE_CHECKING:
     from viscotack.model.materials.conversion import PronyForm
@@ -19,22 +31,6 @@ if TYPE_CHECKING:
 Code = Literal["abaqus", "ansys", "comsol"]
 # Of these the input states modulus and Poisson ratio.
 _STATING = ("abaqus", "ansys")
-_OUTPUT = Output(
-    "output",
-    "Write to this file; - is standard output.",
-    flags=("-o", "--output"),
-    usual="-",
-    endings=(".toml",),
-)
-# Of input of other programs.
-_CARDS = (".inp", ".txt", ".csv", ".dat", ".mac")
-
-Temperature = Annotated[float | None, Number('At this temperature, "0 degC" or "273 K".', unit="K")]
-Tolerance = Annotated[float, Number("Largest relative error of the series.")]
-PressureUnit = Annotated[
-    str | None, Option("Unit of moduli in the other program, MPa.", example="MPa")
-]
-TimeUnit = Annotated[str | None, Option("Unit of times in the other program, s.", example="s")]
 
 
 def _band(value: Any) -> tuple[float, float]:
@@ -50,14 +46,34 @@ def _band(value: Any) -> tuple[float, float]:
     return angular(low), angular(high)
 
 
-Frequencies = Annotated[
-    tuple[float, float] | None,
-    Text(
+class _Converted(Request):
+    """A material at a temperature, or as a Prony series, in the units of another program."""
+
+    temperature: float | None = number('At this temperature, "0 degC" or "273 K".', "K")
+    frequencies: tuple[float, float] | None = text(
         'Range of the Prony series, "1 mHz,1 MHz"; default: the measured range.',
         metavar="LOW,HIGH",
         to=_band,
-    ),
-]
+    )
+    tolerance: float = number("Largest relative error of the series.", default=3e-4)
+    pressure_unit: str | None = option("Unit of moduli in the other program, MPa.", example="MPa")
+    time_unit: str | None = option("Unit of times in the other program, s.", example="s")
+
+    def series(self, passport: "Passport") -> "PronyForm":
+        """Return the Prony series of a passport's material."""
+        from viscotack.model.materials.conversion import prony_form
+        from viscotack.model.materials.words import word_of
+
+        bounds = self.frequencies or passport.frequencies
+        if bounds is None and word_of(passport.material) in ("prony", "sls"):
+            unit = passport.material.time_unit
+            bounds = 1e-3 / unit, 1e3 / unit
+        if bounds is None:
+            raise InputError(
+                f"{passport.name} does not say where it was measured; say where the series must "
+                'hold, frequencies "1 mHz,1 MHz"'
+            )
+        return prony_form(passport.material, frequencies=bounds, tolerance=self.tolerance)
 
 
 class ShowMaterial(Request):
@@ -76,7 +92,7 @@ class ShowMaterial(Request):
         return _answer(passport_of(self.passport, caller))
 
 
-class ConvertMaterial(Request):
+class ConvertMaterial(_Converted):
     """Convert a passport: to another temperature, to a Prony series, from another program.
 
     Without -o the passport goes to standard output.
@@ -86,33 +102,24 @@ class ConvertMaterial(Request):
     """
 
     word: ClassVar = "material convert"
-    outputs: ClassVar = (_OUTPUT,)
+    outputs: ClassVar = (
+        main_file("Write to this file; - is standard output.", ".toml", usual="-"),
+    )
     takes_own: ClassVar = True
 
-    source: Annotated[
-        Any,
-        Named(
-            "A material passport, or the name of a published material such as pdms-10-1. Or, with "
-            "--from, another program's input.",
-            metavar="PASSPORT|FILE",
-            argument=True,
-        ),
-    ]
-    temperature: Temperature = None
-    prony: Annotated[bool, Option("Convert to a Prony series with a stated error.")] = False
-    frequencies: Frequencies = None
-    tolerance: Tolerance = 3e-4
-    code: Annotated[Code | None, Option("Program whose input file is read.", flags=("--from",))] = (
-        None
+    source: Any = named(
+        "A material passport, or the name of a published material such as pdms-10-1. Or, with "
+        "--from, another program's input.",
+        metavar="PASSPORT|FILE",
+        argument=True,
+        default=...,
     )
-    pressure_unit: PressureUnit = None
-    time_unit: TimeUnit = None
-    rubbery_modulus: Annotated[
-        float | None, Number("Long-term Young's modulus, if not in the input file.", unit="Pa")
-    ] = None
-    poisson_ratio: Annotated[float | None, Number("Poisson ratio, if not in the input file.")] = (
-        None
+    prony: bool = switch("Convert to a Prony series with a stated error.")
+    code: Code | None = option("Program whose input file is read.", flags=("--from",))
+    rubbery_modulus: float | None = number(
+        "Long-term Young's modulus, if not in the input file.", "Pa"
     )
+    poisson_ratio: float | None = number("Poisson ratio, if not in the input file.")
 
     def check(self) -> None:
         """Check that options of other programs' input, and of a series, are given for these."""
@@ -179,7 +186,7 @@ class ConvertMaterial(Request):
     def _as_series(self, passport: "Passport") -> "Passport":
         from viscotack.model.materials.words import word_of
 
-        form = _series(passport, self.frequencies, self.tolerance)
+        form = self.series(passport)
         note = f"Prony series of the {word_of(passport.material)}, error {form.error:.1e}"
         origin = replace(passport.origin, notes=(*passport.origin.notes, note))
         return replace(
@@ -187,7 +194,7 @@ class ConvertMaterial(Request):
         )
 
 
-class ExportMaterial(Request):
+class ExportMaterial(_Converted):
     """Export a material as input of another program, in its convention and units.
 
     Without units: Pa and s. Without -o it goes to standard output.
@@ -197,22 +204,20 @@ class ExportMaterial(Request):
     """
 
     word: ClassVar = "material export"
-    outputs: ClassVar = (replace(_OUTPUT, endings=_CARDS),)
+    outputs: ClassVar = (
+        main_file(
+            "Write to this file; - is standard output.",
+            *(".inp", ".txt", ".csv", ".dat", ".mac"),
+            usual="-",
+        ),
+    )
     takes_own: ClassVar = True
 
     passport: APassport
-    to: Annotated[Code, Option("The program to write for.")]
-    temperature: Temperature = None
-    frequencies: Frequencies = None
-    tolerance: Tolerance = 3e-4
-    pressure_unit: PressureUnit = None
-    time_unit: TimeUnit = None
-    bulk_modulus: Annotated[
-        float | None,
-        Number(
-            'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".', unit="Pa"
-        ),
-    ] = None
+    to: Code = option("The program to write for.", default=...)
+    bulk_modulus: float | None = number(
+        'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".', "Pa"
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Make the series and write it as the program has it."""
@@ -223,19 +228,21 @@ class ExportMaterial(Request):
         passport = passport_of(self.passport, caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
-        form = _series(passport, self.frequencies, self.tolerance)
+        form, shift = self.series(passport), passport.shift
+        if shift is not None and passport.temperature is not None:
+            shift = shift.at_reference(passport.temperature)
         text = exported(
             form.material,
             self.to,
             units=Units(self.pressure_unit or "Pa", self.time_unit or "s"),
             notes=_notes(passport, form),
             bulk_modulus=self.bulk_modulus,
-            shift=_seen_from(passport),
+            shift=shift if passport.temperature is not None else None,
         )
         low, high = form.frequencies
         return Answer(
             text,
-            record=lambda: {
+            data=lambda: {
                 "name": passport.name,
                 "program": self.to,
                 "text": text,
@@ -256,35 +263,9 @@ def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:
     written = caller is not None and "output" in caller.wants
     return Answer(
         passport,
-        record=lambda: passport_record(passport),
+        data=lambda: passport_record(passport),
         words=lambda: "" if written else in_words(passport),
     )
-
-
-def _series(
-    passport: "Passport", frequencies: tuple[float, float] | None, tolerance: float
-) -> "PronyForm":
-    """Return the Prony series of a passport's material."""
-    from viscotack.model.materials.conversion import prony_form
-    from viscotack.model.materials.words import word_of
-
-    bounds = frequencies or passport.frequencies
-    if bounds is None and word_of(passport.material) in ("prony", "sls"):
-        unit = passport.material.time_unit
-        bounds = 1e-3 / unit, 1e3 / unit
-    if bounds is None:
-        raise InputError(
-            f"{passport.name} does not say where it was measured; say where the series must hold, "
-            'frequencies "1 mHz,1 MHz"'
-        )
-    return prony_form(passport.material, frequencies=bounds, tolerance=tolerance)
-
-
-def _seen_from(passport: "Passport") -> Any:
-    """Return the shift of a passport, zero at the temperature of its material."""
-    if passport.shift is None or passport.temperature is None:
-        return None
-    return passport.shift.at_reference(passport.temperature)
 
 
 def _notes(passport: "Passport", form: "PronyForm") -> tuple[str, ...]:

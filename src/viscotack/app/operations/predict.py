@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -13,15 +13,15 @@ from .parts.record_words import units_of
 from .request import (
     Answer,
     Caller,
-    Contact,
-    Number,
-    Option,
     Output,
     Request,
-    Rows,
+    contact,
     csv_file,
+    number,
     picture,
     quoted,
+    rows,
+    switch,
 )
 from .simulate import HowLong
 
@@ -73,51 +73,41 @@ class Predict(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
-            "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
-            "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
-            "preload, preload_force, preload_radius; or size, thickness, cohesion, modulus_ratio, "
-            "rate and preload or preload_force.",
-            metavar="sphere|punch|CASE.toml|CASES.csv",
-            indenters=("sphere", "punch"),
-            spelling="word",
-            table="cases",
-            expected="predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv",
-        ),
-    ] = None
-    cases: Annotated[
-        Path | tuple[Mapping[str, Any], ...] | None,
-        Rows(
-            "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "
-            "changes it: columns are keys of the problem file, with units in the headings, "
-            '"radius [mm]", or in the cells, "5.19 mm". Alone it has a case without dimensions '
-            "in each row.",
-            elsewhere=True,
-        ),
-    ] = None
-    confidence: Annotated[
-        float, Number("Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.")
-    ] = 0.9
-    budget: Annotated[
-        float | None,
-        Number(
-            "Time budget: from 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the "
-            "steady-crack contact model, from 1 s the simulation where a surrogate is not certain, "
-            "from 3 s the simulation. Default: 1 s.",
-            unit="s",
-            above=0,
-            bare=True,
-        ),
-    ] = None
-    exact: Annotated[
-        bool,
-        Option("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
-    ] = False
-    compare: Annotated[bool, Option("Also simulate, and show the error of the prediction.")] = False
-    why: Annotated[bool, Option("Also print why this method answers.")] = False
+    problem: Any = contact(
+        "The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
+        "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
+        "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
+        "preload, preload_force, preload_radius; or size, thickness, cohesion, modulus_ratio, "
+        "rate and preload or preload_force.",
+        metavar="sphere|punch|CASE.toml|CASES.csv",
+        indenters=("sphere", "punch"),
+        spelling="word",
+        table="cases",
+        expected="predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv",
+    )
+    cases: Path | tuple[Mapping[str, Any], ...] | None = rows(
+        "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "
+        "changes it: columns are keys of the problem file, with units in the headings, "
+        '"radius [mm]", or in the cells, "5.19 mm". Alone it has a case without dimensions '
+        "in each row.",
+        elsewhere=True,
+    )
+    confidence: float = number(
+        "Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.", default=0.9
+    )
+    budget: float | None = number(
+        "Time budget: from 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the "
+        "steady-crack contact model, from 1 s the simulation where a surrogate is not certain, "
+        "from 3 s the simulation. Default: 1 s.",
+        "s",
+        above=0,
+        bare=True,
+    )
+    exact: bool = switch(
+        "Simulate at the usual accuracy, however long it takes; `simulate` takes another."
+    )
+    compare: bool = switch("Also simulate, and show the error of the prediction.")
+    why: bool = switch("Also print why this method answers.")
     time_limit: HowLong = None
 
     def check(self) -> None:
@@ -167,7 +157,7 @@ class Predict(Request):
             record |= _comparison(found, record, result)
         return Answer(
             found,
-            record=lambda: record,
+            data=lambda: record,
             words=lambda: _shown(found, record, self.why),
             units=units_of(found.problem.groups().outputs),
             files={"curve": lambda target: write_table(_curve(found), target)},
@@ -227,9 +217,9 @@ class Advise(Request):
     word: ClassVar = "advise"
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any, Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc"))
-    ]
+    problem: Any = contact(
+        "The contact, of revolution.", indenters=("sphere", "profile", "disc"), default=...
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
@@ -249,7 +239,7 @@ class Advise(Request):
         sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(
             advice,
-            record=lambda: _advised(advice, sentences, warned),
+            data=lambda: _advised(advice, sentences, warned),
             words=lambda: {"sentences": sentences},
             notes=stated.notes,
         )
@@ -260,7 +250,7 @@ def _advised(
 ) -> dict[str, Any]:
     """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
     record: dict[str, Any] = asdict(advice)
-    record |= {"sentences": list(sentences), "cautions": list(warned)}
+    record |= {"sentences": sentences, "cautions": warned}
     scales = record.pop("length_scale"), record.pop("speed_scale")
     if (contact := record.pop("contact")) is not None:
         del contact["receding"], contact["start_radius"], contact["edge_speed"]

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined, core_schema
 
@@ -108,7 +108,7 @@ class Number(_Read):
 
     form: ClassVar = "number"
 
-    unit: str = field(default="1", kw_only=True)
+    unit: str = "1"
     above: float | None = field(default=None, kw_only=True)
     least: float | None = field(default=None, kw_only=True)
     most: float | None = field(default=None, kw_only=True)
@@ -262,6 +262,31 @@ class Contact(_Read):
         return value
 
 
+def _declares(kind: type[Option]) -> Callable[..., Any]:
+    """Return the function that declares a field: ``radius: float = number("Radius.", "m")``.
+
+    Its arguments are those of the option, the `default`, and the limits of whole numbers. A field
+    may be left out, unless its default is ``...``.
+    """
+
+    def declare(*words: str, default: Any = None, **more: Any) -> Any:
+        limits = {name: more.pop(name) for name in ("ge", "le") if name in more}
+        info: Any = Field(default, **limits)
+        info.metadata.append(kind(*words, **more))
+        return info
+
+    return declare
+
+
+option, number, text = map(_declares, (Option, Number, Text))
+file_name, named, rows, contact = map(_declares, (File, Named, Rows, Contact))
+
+
+def switch(words: str, **more: Any) -> Any:
+    """Declare an option that is off by default."""
+    return option(words, default=False, **more)
+
+
 @dataclass(frozen=True)
 class Output:
     """A file that an operation can write.
@@ -308,6 +333,11 @@ def csv_file(words: str = "Write a table.", name: str = "csv") -> Output:
     return Output(name, words, endings=(".csv", ".txt", ".dat"))
 
 
+def main_file(words: str, *endings: str, **more: Any) -> Output:
+    """Declare the file of ``-o``."""
+    return Output("output", words, flags=("-o", "--output"), endings=endings, **more)
+
+
 def picture(words: str = "Draw.", name: str = "plot") -> Output:
     """Declare a figure as output."""
     words = f"{words.removesuffix('.')} to a .png, .pdf or .svg file."
@@ -327,9 +357,8 @@ class Answer:
     ----------
     found : object
         The result as a Python object.
-    record : callable
-        Returns plain data, numbers in SI with the unit in the name, as printed by ``--json`` and
-        returned over HTTP.
+    data : callable
+        Returns the record: numbers in SI with the unit in the name.
     words : callable, optional
         Returns text for the terminal, or the part of the record that is shown there; default:
         all of it.
@@ -348,7 +377,7 @@ class Answer:
     """
 
     found: Any
-    record: Callable[[], Any]
+    data: Callable[[], Any]
     words: Callable[[], Any] | None = None
     units: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, Callable[["Target"], None]] = field(default_factory=dict)
@@ -357,12 +386,19 @@ class Answer:
     notes: tuple[str, ...] = ()
     status: int = 0
 
+    def record(self) -> Any:
+        """Return the record as plain data, as printed by ``--json`` and returned over HTTP."""
+        from .parts.json_data import plain
+
+        return plain(self.data())
+
     def __str__(self) -> str:
         """Return the text for the terminal."""
+        from .parts.json_data import plain
         from .parts.record_words import record_words
 
-        shown = self.record() if self.words is None else self.words()
-        return shown if isinstance(shown, str) else record_words(shown, self.units)
+        shown = self.data() if self.words is None else self.words()
+        return shown if isinstance(shown, str) else record_words(plain(shown), self.units)
 
 
 def harmless_name(name: str) -> str:
@@ -393,6 +429,8 @@ class Caller:
     sent : bool
         Whether only files of the folder may be named, by their last names: those of a request
         over HTTP.
+    read : list of Path
+        Files that were named so far, for those who write the outputs.
     """
 
     tell: Callable[[Told], None] = lambda told: None
@@ -401,9 +439,10 @@ class Caller:
     own: tuple[str, ...] = ()
     folder: Path = Path()
     sent: bool = False
+    read: list[Path] = field(default_factory=list)
 
     def file(self, name: str | os.PathLike[str]) -> Path:
-        """Return the path of a named file."""
+        """Return the path of a named file, which no output may overwrite."""
         text = os.fspath(name)
         if not text or "\0" in text:
             raise InputError(f"expected the name of a file, got {text!r:.60}")
@@ -412,6 +451,7 @@ class Caller:
             path = self.folder / harmless_name(text)
             if self.folder == Path() or not path.is_file():
                 raise InputError(f"no file called {path.name!r:.100} was sent with the request")
+        self.read.append(path)
         return path
 
     def within(self, file: Path) -> Self:
@@ -548,10 +588,10 @@ def quoted(names: Iterable[str]) -> str:
 
     Examples
     --------
-    >>> quoted(["modulus-ratio", "rate"])
+    >>> quoted(["modulus_ratio", "rate"])
     '`modulus_ratio`, `rate`'
     """
-    return ", ".join(f"`{name.replace('-', '_')}`" for name in names)
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def request_of(kind: type[R], given: Mapping[str, Any]) -> R:

@@ -1,12 +1,12 @@
 """The operation ``test read``: evaluate the files of a tack tester or microscope."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
 from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
-from .request import Answer, Caller, Number, Output, csv_file, picture
+from .request import Answer, Caller, Output, csv_file, number, picture
 
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
 _LARGEST_WORK = 10.0
@@ -44,14 +44,11 @@ class ReadTests(Rig, ShiftLaw):
         picture(),
     )
 
-    radius: Annotated[
-        float | None,
-        Number(
-            'Sphere radius, "5.19 mm"; adds the work of adhesion of an elastic JKR sphere, '
-            "2F/(3 pi R).",
-            unit="m",
-        ),
-    ] = None
+    radius: float | None = number(
+        'Sphere radius, "5.19 mm"; adds the work of adhesion of an elastic JKR sphere, '
+        "2F/(3 pi R).",
+        "m",
+    )
 
     def check(self) -> None:
         """Refuse a reference temperature without a shift."""
@@ -93,7 +90,7 @@ class ReadTests(Rig, ShiftLaw):
         sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
         return Answer(
             found,
-            record=lambda: tests_record(found, table, self.radius, law),
+            data=lambda: tests_record(found, table, self.radius, law),
             words=lambda: _shown(tests_record(found, table, self.radius, law)),
             files={
                 "csv": rows_as_csv(rows),

@@ -2,14 +2,12 @@
 
 import os
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal
-
-from pydantic import Field
+from typing import Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .request import Answer, Caller, File, Option, Output, Request, csv_file, picture
+from .request import Answer, Caller, Output, Request, csv_file, file_name, option, picture, switch
 from .simulate import Accuracy, Limit
 
 # Frames of a film, by default.
@@ -47,46 +45,34 @@ class OfRough(Request):
     )
     takes_own: ClassVar = True
 
-    file: Annotated[
-        Path,
-        File(
-            "The tables [surface], [material], [interface] and [protocol]; perhaps [layer].",
-            metavar="ROUGH.toml",
-            argument=True,
-        ),
-    ]
+    file: Path = file_name(
+        "The tables [surface], [material], [interface] and [protocol]; perhaps [layer].",
+        metavar="ROUGH.toml",
+        argument=True,
+        default=...,
+    )
     accuracy: Accuracy = DEFAULT_ACCURACY
-    theory: Annotated[
-        Literal["superposition"] | None,
-        Option("Answer by a theory instead of a simulation: the asperities by themselves."),
-    ] = None
-    moments: Annotated[
-        int | None,
-        Option(
-            "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
-            "the largest tension."
-        ),
-        Field(ge=2, le=1000),
-    ] = None
-    anyway: Annotated[
-        bool,
-        Option(
-            "Answer although a zone at an edge has less than one pixel, or asperities "
-            "are neighbours."
-        ),
-    ] = False
-    device: Annotated[
-        Literal["cpu", "cuda"],
-        Option("Where to compute: cuda is a GPU, by CuPy, for maps from about 512 x 512 pixels."),
-    ] = "cpu"
+    theory: Literal["superposition"] | None = option(
+        "Answer by a theory instead of a simulation: the asperities by themselves."
+    )
+    moments: int | None = option(
+        "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
+        "the largest tension.",
+        ge=2,
+        le=1000,
+    )
+    anyway: bool = switch(
+        "Answer although a zone at an edge has less than one pixel, or asperities are neighbours."
+    )
+    device: Literal["cpu", "cuda"] = option(
+        "Where to compute: cuda is a GPU, by CuPy, for maps from about 512 x 512 pixels.",
+        default="cpu",
+    )
     time_limit: Limit = 600.0
-    checkpoint: Annotated[
-        Path | None,
-        File(
-            "Keep the run in this file every half a minute; continue from there if it exists.",
-            metavar="RUN.npz",
-        ),
-    ] = None
+    checkpoint: Path | None = file_name(
+        "Keep the run in this file every half a minute; continue from there if it exists.",
+        metavar="RUN.npz",
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate the test, telling ``share``."""
@@ -124,7 +110,7 @@ class OfRough(Request):
         }
         return Answer(
             found,
-            record=lambda: found.summary | about,
+            data=lambda: found.summary | about,
             words=lambda: _shown(found, about),
             files={
                 "csv": rows_as_csv(found.rows()),
@@ -161,7 +147,7 @@ class OfRough(Request):
         )
         return Answer(
             found,
-            record=lambda: found.summary,
+            data=lambda: found.summary,
             files={"csv": rows_as_csv(found.rows())},
             pictures={"plot": lambda: draw_superposition(problem, found)},
             notes=(*problem.surface.notes, *((found.why,) if found.why else ())),

@@ -1,9 +1,9 @@
 """The operation ``schema``: the JSON schema of a problem."""
 
 import json
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
-from .request import Answer, Caller, Option, Request
+from .request import Answer, Caller, Request, switch
 
 
 class Schema(Request):
@@ -17,7 +17,7 @@ class Schema(Request):
     word: ClassVar = "schema"
     takes_own: ClassVar = True
 
-    words: Annotated[bool, Option("Tables in Markdown for people, in place of the schema.")] = False
+    words: bool = switch("Tables in Markdown for people, in place of the schema.")
 
     def answer(self, caller: Caller) -> Answer:
         """Read the cards of all nouns."""
@@ -26,6 +26,6 @@ class Schema(Request):
         found = schema(caller.also)
         return Answer(
             found,
-            record=lambda: found,
+            data=lambda: found,
             words=lambda: words(caller.also) if self.words else json.dumps(found, indent=2),
         )

@@ -1,6 +1,6 @@
 """The operations ``simulate`` and ``show``: simulate a contact, and show a saved result."""
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -14,14 +14,15 @@ from .parts.record_words import units_of
 from .request import (
     Answer,
     Caller,
-    Contact,
-    File,
     Option,
     Output,
     Request,
+    contact,
     csv_file,
+    file_name,
     number_of,
     picture,
+    switch,
 )
 
 if TYPE_CHECKING:
@@ -120,32 +121,26 @@ class Simulate(Request):
     """,
     }
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "The contact and the moves of the machine.", indenters=INDENTERS, spelling="commands"
-        ),
-    ]
+    problem: Any = contact(
+        "The contact and the moves of the machine.",
+        indenters=INDENTERS,
+        spelling="commands",
+        default=...,
+    )
     until: Until = "detached"
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: HowLong = None
-    whole: Annotated[
-        bool,
-        Option(
-            "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
-            "at a smaller depth with the same result."
-        ),
-    ] = False
-    profiles: Annotated[
-        bool, Option("Also keep pressure and gap along the radius, at the steps of the solver.")
-    ] = False
-    sensitivities: Annotated[
-        bool,
-        Option(
-            "Also compute the elasticities of force, work, depth and contact radius at pull-off "
-            "by every input, from simulations with each changed by 2 %."
-        ),
-    ] = False
+    whole: bool = switch(
+        "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
+        "at a smaller depth with the same result."
+    )
+    profiles: bool = switch(
+        "Also keep pressure and gap along the radius, at the steps of the solver."
+    )
+    sensitivities: bool = switch(
+        "Also compute the elasticities of force, work, depth and contact radius at pull-off "
+        "by every input, from simulations with each changed by 2 %."
+    )
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:
@@ -182,7 +177,9 @@ class Show(Request):
     outputs: ClassVar = _FILES
     takes_own: ClassVar = True
 
-    file: Annotated[Path, File("A result that --save wrote.", metavar="FILE.npz", argument=True)]
+    file: Path = file_name(
+        "A result that --save wrote.", metavar="FILE.npz", argument=True, default=...
+    )
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:
@@ -209,27 +206,20 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
     from .parts.running import drawn_of
 
     also, kind = known(caller.also).observables, result.problem.outputs
-    draw = {
-        "force": plot.draw_force,
-        "radius": plot.draw_radius,
-        "overview": plot.draw_overview,
-        "energy": plot.draw_energy,
-        "sensitivities": plot.draw_sensitivities,
-    }[plot_kind]
     stopped = result.outcome is Outcome.STOPPED
     files: dict[str, Any] = {"csv": lambda target: write_csv(result, target)}
     if not stopped:
         files["cycles"] = lambda target: write_cycles(result, target)
     found = summary(result, also)
     if result.sensitivities is not None:
-        found["sensitivities"] = asdict(result.sensitivities)
+        found["sensitivities"] = result.sensitivities
     return Answer(
         result,
-        record=lambda: found,
+        data=lambda: found,
         words=lambda: _shown(result, found),
         units=units_of(kind) | {own.name: kind.units[own.measure].text for own in also},
         files=files,
-        pictures={"plot": lambda: draw(result)},
+        pictures={"plot": lambda: getattr(plot, f"draw_{plot_kind}")(result)},
         drawn=lambda: drawn_of(result),
         notes=(_not_met(result),) if result.accuracy_met is False and not stopped else (),
         status=int(stopped),

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.model.problem import RoughCase
@@ -11,7 +11,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
 from .parts.record_words import units_of
-from .request import Answer, Caller, Contact, Request, Rows, csv_file
+from .request import Answer, Caller, Request, contact, csv_file, rows
 from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:
@@ -38,24 +38,20 @@ class Sweep(Request):
     outputs: ClassVar = (csv_file("Write a row for each case."),)
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any,
-        Contact(
-            "The problem whose numbers are replaced, in SI; a case or a rough surface.",
-            indenters=INDENTERS,
-            spelling="case",
-            rough=True,
-        ),
-    ]
-    cases: Annotated[
-        Path | tuple[Mapping[str, Any], ...],
-        Rows(
-            'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
-            "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
-            metavar="CASES.csv",
-            argument=True,
-        ),
-    ]
+    problem: Any = contact(
+        "The problem whose numbers are replaced, in SI; a case or a rough surface.",
+        indenters=INDENTERS,
+        spelling="case",
+        rough=True,
+        default=...,
+    )
+    cases: Path | tuple[Mapping[str, Any], ...] = rows(
+        'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
+        "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
+        metavar="CASES.csv",
+        argument=True,
+        default=...,
+    )
     accuracy: Accuracy = DEFAULT_ACCURACY
     until: Until = "pull-off"
     time_limit: Limit = 120.0
@@ -86,7 +82,7 @@ class Sweep(Request):
         failed = sum(bool(row["reason"]) for row in rows if row["inputs"] is not None)
         return Answer(
             rows,
-            record=lambda: {"rows": rows, "failed": failed},
+            data=lambda: {"rows": rows, "failed": failed},
             words=lambda: _shown(changes, rows, failed),
             units={} if rough else units_of(stated.problem.outputs),
             files={"csv": rows_as_csv(_flat(cases, rows))},
@@ -134,13 +130,7 @@ def _flat(
     cases: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]]
 ) -> list[dict[str, Any]]:
     """Return rows of the same columns, for a table: those of the cases, and the results."""
-    from viscotack.files.text import cell
-
     empty = dict.fromkeys(name for row in rows for name in row["outputs"] or ())
-    given = [
-        {cell(name): cell(x) if isinstance(x, str) else x for name, x in case.items()}
-        for case in cases
-    ]
     return [
         {
             **case,
@@ -148,10 +138,10 @@ def _flat(
             **empty,
             **(row["outputs"] or {}),
             **case,  # of a problem without dimensions they are among the numbers too
-            "reason": cell(row["reason"]),
+            "reason": row["reason"],
             "wall_time_s": row["wall_time_s"],
         }
-        for case, row in zip(given, rows, strict=True)
+        for case, row in zip(cases, rows, strict=True)
     ]
 
 

@@ -7,9 +7,10 @@ import numpy as np
 from viscotack.errors import InputError
 
 from .parts.closed_form import closed_form
-from .parts.layer import BONDED, THICKNESS, body_of
-from .parts.tables import as_text
-from .request import Answer, Caller, Contact, Number, Request, csv_file, picture, quoted
+from .parts.layer import OnLayer
+from .parts.record_words import read
+from .parts.tables import write_table
+from .request import Answer, Caller, Number, Request, contact, csv_file, number, picture, quoted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,7 +22,7 @@ _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0)
 _WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0)
 
 
-class Jkr(Request):
+class Jkr(OnLayer):
     """Detachment of an elastic sphere, forces of short range (JKR), from a half-space or a film.
 
     Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
@@ -34,12 +35,6 @@ class Jkr(Request):
     radius: Annotated[float, _RADIUS]
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
-    thickness: Annotated[float | None, THICKNESS] = None
-    bonded: Annotated[float | None, BONDED] = None
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
@@ -72,7 +67,7 @@ class Jkr(Request):
         from viscotack.theory import film
         from viscotack.theory.elastic import relaxed
 
-        body = body_of(self.thickness, self.bonded)
+        body = self.body
         assert isinstance(body, Layer), "it has a thickness"
         solid: Any = {
             "shape": Sphere(self.radius),
@@ -100,7 +95,7 @@ class Jkr(Request):
         return closed_form(end, record, (depth(a), force(a)), ("depth [m]", "force [N]"))
 
 
-class OfDisc(Request):
+class OfDisc(OnLayer):
     """Detachment of a disc, the flat end of a cylinder, from a half-space or a film (Kendall).
 
     Example: viscotack theory disc --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
@@ -110,26 +105,19 @@ class OfDisc(Request):
     word: ClassVar = "theory disc"
     outputs: ClassVar = (picture("Draw the force against the radius of the disc."),)
 
-    radius: Annotated[float, Number('Radius of the disc a, "1 mm".', unit="m", above=0)]
+    radius: float = number('Radius of the disc a, "1 mm".', "m", above=0, default=...)
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
-    strength: Annotated[
-        float | None,
-        Number('Of the interface, "50 kPa"; its force limits that of Kendall.', unit="Pa", above=0),
-    ] = None
-    thickness: Annotated[float | None, THICKNESS] = None
-    bonded: Annotated[float | None, BONDED] = None
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        body_of(self.thickness, self.bonded)
+    strength: float | None = number(
+        'Of the interface, "50 kPa"; its force limits that of Kendall.', "Pa", above=0
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
         from viscotack.theory import disc, indenter
         from viscotack.theory.elastic.on_layer import LARGEST as WIDEST
 
-        a, E, body = self.radius, self.contact_modulus, body_of(self.thickness, self.bonded)
+        a, E, body = self.radius, self.contact_modulus, self.body
         solid: Any = {"contact_modulus": E, "work_of_adhesion": self.work_of_adhesion}
         limits: Any = {**solid, "strength": self.strength, "body": body}
         force = disc.pull_off_force(contact_radius=a, **limits)
@@ -170,17 +158,12 @@ class Maugis(Request):
     radius: Annotated[float | None, _RADIUS] = None
     contact_modulus: Annotated[float | None, _MODULUS] = None
     work_of_adhesion: Annotated[float | None, _WORK] = None
-    strength: Annotated[
-        float | None, Number('Tension in the ring, "5 MPa".', unit="Pa", above=0)
-    ] = None
-    tabor: Annotated[
-        float | None,
-        Number(
-            "Instead of all of them, for dimensionless answers: the Tabor number of a "
-            "Lennard-Jones contact of the same work and peak tension.",
-            above=0,
-        ),
-    ] = None
+    strength: float | None = number('Tension in the ring, "5 MPa".', "Pa", above=0)
+    tabor: float | None = number(
+        "Instead of all of them, for dimensionless answers: the Tabor number of a "
+        "Lennard-Jones contact of the same work and peak tension.",
+        above=0,
+    )
 
     def check(self) -> None:
         """Refuse options that exclude each other."""
@@ -243,7 +226,7 @@ class OfCrack(Request):
     outputs: ClassVar = (csv_file("Write the history as CSV, dimensionless.", "curve"), picture())
     takes_own: ClassVar = True
 
-    problem: Annotated[Any, Contact("The contact, of a sphere.", whole=False)]
+    problem: Any = contact("The contact, of a sphere.", whole=False, default=...)
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the history."""
@@ -257,18 +240,15 @@ class OfCrack(Request):
         record = summary(found)
         return Answer(
             found,
-            record=lambda: record,
-            files={"curve": as_text(lambda: _table(found))},
+            data=lambda: record,
+            files={"curve": lambda target: write_table(read(found, *_HISTORY), target)},
             pictures={"plot": lambda: _drawn(found)},
             notes=stated.notes,
         )
 
 
-def _table(found: "CrackContact") -> str:
-    names = ("time", "depth", "force", "contact_radius", "edge_speed", "amplification", "move")
-    rows = zip(*(getattr(found, name).tolist() for name in names), strict=True)
-    lines = [",".join(map(repr, row)) for row in rows]
-    return "\n".join([",".join(names), *lines]) + "\n"
+# Columns of the history.
+_HISTORY = ("time", "depth", "force", "contact_radius", "edge_speed", "amplification", "move")
 
 
 def _drawn(found: "CrackContact") -> "Figure":

@@ -1,7 +1,5 @@
 """The operations ``theory persson-brener``, ``greenwood`` and ``steady-crack``: moving cracks."""
 
-import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -9,12 +7,12 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.theory.crack.steady.comparison import THESIS_RATIO
-from viscotack.units import parse
+from viscotack.units import is_number, parse
 
 from .flags import LAW
 from .parts.closed_form import closed_form
 from .parts.solid import Reduced
-from .request import Answer, Caller, File, Number, Option, Text, picture, quoted
+from .request import Answer, Caller, Number, file_name, number, option, picture, quoted, text
 
 if TYPE_CHECKING:
     from viscotack.theory import SteadyCrack
@@ -37,29 +35,19 @@ class _OfTheory(Reduced):
 
     outputs: ClassVar = (picture(),)
 
-    speed: Annotated[
-        tuple[float, ...],
-        Number(
-            "Crack speed, in the theory's length over the time of the material (a second with "
-            "--modulus-table); repeat it for more. Without it a table over the range that matters."
-        ),
-    ] = ()
-    modulus_table: Annotated[
-        Path | None,
-        File(
-            "Instead of a material: a measured complex modulus, CSV with the header "
-            "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). "
-            "The answer is two bounds, for what the solid may do outside of the table."
-        ),
-    ] = None
-    rubbery_modulus: Annotated[
-        float | None,
-        Number(
-            'Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".',
-            unit="Pa",
-            above=0,
-        ),
-    ] = None
+    speed: tuple[float, ...] = number(
+        "Crack speed, in the theory's length over the time of the material (a second with "
+        "--modulus-table); repeat it for more. Without it a table over the range that matters.",
+        default=(),
+    )
+    modulus_table: Path | None = file_name(
+        "Instead of a material: a measured complex modulus, CSV with the header "
+        "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). "
+        "The answer is two bounds, for what the solid may do outside of the table."
+    )
+    rubbery_modulus: float | None = number(
+        'Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".', "Pa", above=0
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory at the speeds, or over the range that matters."""
@@ -72,7 +60,7 @@ class _OfTheory(Reduced):
         columns = {"speed": v} | found
         return closed_form(
             columns,
-            {name: values.tolist() for name, values in columns.items()},
+            columns,
             (v, np.stack(list(found.values()), axis=-1)),
             (f"speed [length of the theory / {unit}]", "amplification"),
             logarithmic=True,
@@ -82,7 +70,7 @@ class _OfTheory(Reduced):
         from viscotack.theory.crack.law import THEORIES
 
         law: Any = THEORIES[self.word.removeprefix("theory ")]
-        solid, _ = self.solid(caller)
+        solid = self.solid(caller)
         if self.speed:
             v = np.array(self.speed)
         elif solid.modulus_ratio < 1:
@@ -102,20 +90,16 @@ class _OfTheory(Reduced):
             raise InputError(f"`modulus_table` states the solid; leave out {quoted(given)}")
         if self.modulus_table is None or self.rubbery_modulus is None:
             raise InputError("`modulus_table` and `rubbery_modulus` go together; give both")
-        amplification, speed_range = {
-            "theory persson-brener": (
-                tabulated_modulus.amplification,
-                tabulated_modulus.speed_range,
-            ),
-            "theory greenwood": (
-                tabulated_modulus.greenwood_amplification,
-                tabulated_modulus.greenwood_speed_range,
-            ),
-        }[self.word]
+        amplification = tabulated_modulus.amplification
+        speed_range = tabulated_modulus.speed_range
+        if isinstance(self, Greenwood):
+            amplification = tabulated_modulus.greenwood_amplification
+            speed_range = tabulated_modulus.greenwood_speed_range
         table = read_dma(caller.file(self.modulus_table), kind="E")
         if len(table.ids) > 1:
             raise InputError(
-                "`modulus_table` has several sweeps; give one master curve (fit material makes one)"
+                "`modulus_table` has several sweeps; give one master curve, as `viscotack material "
+                "fit` makes it"
             )
         curve = table.at(min(table.ids))
         modulus = tabulated_modulus.TabulatedModulus(
@@ -153,21 +137,12 @@ class Greenwood(_OfTheory):
     word: ClassVar = "theory greenwood"
 
 
-@dataclass(frozen=True)
-class Speed:
-    """A crack speed: a pure number in the unit of the theory, or in m/s."""
-
-    value: float
-    in_si: bool = False
-
-
-def _speed(value: Any) -> Speed:
-    """Return a crack speed: a number without a unit is one of the theory."""
-    if isinstance(value, Speed):
-        return value
-    if not isinstance(value, str) or re.fullmatch(r"[-+0-9.eE]+", value.strip()):
-        return Speed(parse(value, "1"))
-    return Speed(parse(value, "m/s"), in_si=True)
+def _speed(value: Any) -> float | str:
+    """Return a crack speed: a pure number in the unit of the theory, or the text of one in m/s."""
+    if not isinstance(value, str) or is_number(value):
+        return parse(value, "1")
+    parse(value, "m/s")
+    return value
 
 
 def _scale(words: str, unit: str) -> Number:
@@ -211,18 +186,16 @@ class OfSteadyCrack(Scales):
     word: ClassVar = "theory steady-crack"
     outputs: ClassVar = (picture(),)
 
-    speed: Annotated[
-        tuple[Any, ...],
-        Text(
-            "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
-            "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
-            "it a table over the range that matters.",
-            to=_speed,
-        ),
-    ] = ()
-    law: Annotated[str | None, Option(LAW, metavar="LAW")] = None
-    strength_ratio: Annotated[float, Number("Alpha of Persson and Brener's length.", above=0)] = (
-        THESIS_RATIO
+    speed: tuple[Any, ...] = text(
+        "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
+        "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
+        "it a table over the range that matters.",
+        to=_speed,
+        default=(),
+    )
+    law: str | None = option(LAW, metavar="LAW")
+    strength_ratio: float = number(
+        "Alpha of Persson and Brener's length.", above=0, default=THESIS_RATIO
     )
 
     def answer(self, caller: Caller) -> Answer:
@@ -232,7 +205,7 @@ class OfSteadyCrack(Scales):
         from viscotack.theory import SteadyCrack
 
         given = self.given
-        solid, _ = self.solid(caller, "power-law" if "exponent" in given else "sls")
+        solid = self.solid(caller, "power-law" if "exponent" in given else "sls")
         crack = SteadyCrack(
             solid, law_from_words(self.law or LennardJones.word, beside=caller.file)
         )
@@ -243,26 +216,22 @@ class OfSteadyCrack(Scales):
         return closed_form(crack, record, (np.abs(v), curves), labels, logarithmic=True)
 
     def _speeds(self, crack: "SteadyCrack", units: tuple[float, float] | None) -> np.ndarray:
-        if self.speed:
-            return np.array([_without_unit(one, units) for one in self.speed])
-        if crack.largest == 1:
-            raise InputError(_STILL)
-        low, high = np.asarray(crack.speed(crack.largest ** np.array(_PARTS)))
-        return np.geomspace(low, high, _ROWS)
-
-
-def _without_unit(speed: Speed, units: tuple[float, float] | None) -> float:
-    if not speed.in_si:
-        return speed.value
-    if units is None:
-        raise InputError(f"speed {speed.value:g} m/s has a unit; it needs {', '.join(_SCALES)}")
-    return speed.value / units[1]
+        if not self.speed:
+            if crack.largest == 1:
+                raise InputError(_STILL)
+            low, high = np.asarray(crack.speed(crack.largest ** np.array(_PARTS)))
+            return np.geomspace(low, high, _ROWS)
+        in_si = [one for one in self.speed if isinstance(one, str)]
+        if in_si and units is None:
+            raise InputError(f"speed {in_si[0]} has a unit; it needs {quoted(_SCALES)}")
+        unit = 1.0 if units is None else units[1]
+        return np.array([parse(x, "m/s") / unit if x in in_si else x for x in self.speed])
 
 
 def _columns(
     crack: "SteadyCrack", v: np.ndarray, units: tuple[float, float] | None, strength_ratio: float
 ) -> tuple[dict[str, Any], np.ndarray]:
-    """Return the table, columns of lists, and the curves that are drawn."""
+    """Return the columns of the table, and the curves that are drawn."""
     from viscotack.model.traction import grows
     from viscotack.theory import SteadyCrack
     from viscotack.theory.crack.steady import compared
@@ -288,10 +257,7 @@ def _columns(
     if units is not None:
         table |= {"speed_m_per_s": v * units[1], "zone_length_m": zone * units[0]}
     table |= {f"{name}_off": values for name, values in off.items()}
-    listed = {
-        name: [None if np.isnan(x) else float(x) for x in values] for name, values in table.items()
-    }
-    return listed, np.stack([gamma, *(_drawn(found, name, v) for name in _THEORIES[:2])], axis=-1)
+    return table, np.stack([gamma, *(_drawn(found, name, v) for name in _THEORIES[:2])], axis=-1)
 
 
 def _drawn(found: "Comparison", name: str, v: np.ndarray) -> np.ndarray:

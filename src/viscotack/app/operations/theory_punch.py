@@ -1,17 +1,30 @@
 """The operation ``theory punch``: theory of a flat punch on a layer."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.units import parse
 
 from .flags import FLAGS
-from .parts.solid import Reduced, passport_of
-from .request import Answer, Caller, File, Named, Number, Option, picture, quoted
+from .parts.record_words import read
+from .parts.solid import Reduced
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    file_name,
+    named,
+    number,
+    option,
+    option_of,
+    picture,
+    switch,
+)
+from .statement import statement
 
 if TYPE_CHECKING:
     from viscotack.model.materials import Material
@@ -22,8 +35,10 @@ if TYPE_CHECKING:
 _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
 _SLOW, _FAST = 0.003, 0.99
-# What states a solid and its scales, which a passport does alone.
-_OF_SOLID = ("contact_modulus", "modulus_ratio", "exponent", "tau0")
+# Options of the problem that are those of `simulate punch`.
+_OF_PAD = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded", "tau0")
+_OF_PAD += tuple(Reduced.model_fields)
+_PUNCH = Contact("", indenters=("punch",), whole=False)
 
 
 class OfPad(Reduced):
@@ -40,59 +55,34 @@ class OfPad(Reduced):
     word: ClassVar = "theory punch"
     outputs: ClassVar = (picture("Draw that map."),)
 
-    case: Annotated[
-        Path | None,
-        File(
-            "A problem in SI with units, instead of the flags of the problem; docs/input.md "
-            "describes it.",
-            metavar="CASE.toml",
-            argument=True,
-        ),
-    ] = None
-    half_width: Annotated[
-        float | None, Number('Half width of the punch a, "1 mm".', unit="m", above=0)
-    ] = None
-    thickness: Annotated[
-        float | None,
-        Number('Thickness of the layer b, "200 um": what does it hold?', unit="m", above=0),
-    ] = None
-    stress: Annotated[
-        float | None,
-        Number(
-            'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?', unit="Pa", above=0
-        ),
-    ] = None
-    speed: Annotated[float | None, Number('Retraction speed, "100 um/s".', unit="m/s", above=0)] = (
-        None
+    case: Path | None = file_name(
+        "A problem in SI with units, instead of the flags of the problem; docs/input.md "
+        "describes it.",
+        metavar="CASE.toml",
+        argument=True,
     )
-    contact_modulus: Annotated[
-        float | None, Number('E0* = E0/(1 - nu^2), "1 MPa".', unit="Pa", above=0)
-    ] = None
-    work_of_adhesion: Annotated[
-        float | None, Number('dg0, "50 mJ/m^2".', unit="J/m^2", above=0)
-    ] = None
-    strength: Annotated[
-        float | None, Number('Of the interface, sigma0, "50 kPa".', unit="Pa", above=0)
-    ] = None
-    bonded: Annotated[float | None, Number(FLAGS["bonded"].words, least=0, most=0.5)] = None
-    material: Annotated[
-        Any,
-        Named(
-            "sls (also when left out): standard linear solid, tau0 is its retardation time. "
-            "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere.",
-            metavar="MATERIAL",
-        ),
-    ] = None
-    tau0: Annotated[
-        float | None,
-        Number('Time of the material, "1 ms" (not for prony:FILE).', unit="s", above=0),
-    ] = None
-    theory: Annotated[
-        Literal["greenwood", "persson-brener"], Option("Theory of the moving crack.")
-    ] = "greenwood"
-    map: Annotated[bool, Option("Add to the JSON how the pad detaches by thickness and speed.")] = (
-        False
+    half_width: float | None = number('Half width of the punch a, "1 mm".', "m", above=0)
+    thickness: float | None = number(
+        'Thickness of the layer b, "200 um": what does it hold?', "m", above=0
     )
+    stress: float | None = number(
+        'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?', "Pa", above=0
+    )
+    speed: float | None = number('Retraction speed, "100 um/s".', "m/s", above=0)
+    contact_modulus: float | None = number('E0* = E0/(1 - nu^2), "1 MPa".', "Pa", above=0)
+    work_of_adhesion: float | None = number('dg0, "50 mJ/m^2".', "J/m^2", above=0)
+    strength: float | None = number('Of the interface, sigma0, "50 kPa".', "Pa", above=0)
+    bonded: float | None = number(FLAGS["bonded"].words, least=0, most=0.5)
+    material: Any = named(
+        "sls (also when left out): standard linear solid, tau0 is its retardation time. "
+        "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere.",
+        metavar="MATERIAL",
+    )
+    tau0: float | None = number('Time of the material, "1 ms" (not for prony:FILE).', "s", above=0)
+    theory: Literal["greenwood", "persson-brener"] = option(
+        "Theory of the moving crack.", default="greenwood"
+    )
+    map: bool = switch("Add to the JSON how the pad detaches by thickness and speed.")
 
     def check(self) -> None:
         """Refuse options that exclude each other."""
@@ -109,103 +99,60 @@ class OfPad(Reduced):
             crack = pad.crack_law(self.theory, material=solid)
             numbers = _boundaries(pad, crack) | _asked(pad, crack, wanted)
             regimes = _map(pad, crack) if self.map or "plot" in caller.wants else None
-        record = numbers | ({"map": _rows(regimes)} if self.map and regimes else {})
+        record = dict(numbers)
+        if self.map and regimes:
+            names = ("thickness_m", "speed_m_per_s", "regime")
+            record["map"] = read(regimes, *names) | {"pull_off_stress_Pa": regimes.stress}
         return Answer(
             record,
-            record=lambda: record,
+            data=lambda: record,
             words=lambda: numbers,
             pictures={"plot": lambda: draw_regimes(regimes or _map(pad, crack))},
         )
 
-    @property
-    def _of_pad(self) -> dict[str, Any]:
-        """Options that define the pad."""
-        names = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded")
-        said = {name: getattr(self, name) for name in (*names, "tau0")} | self.given
-        return {name: value for name, value in said.items() if value is not None}
-
     def _pad(self, caller: Caller) -> "tuple[Pad, Material, dict[str, float]]":
         """Return the pad and its solid in SI, and the requested numbers."""
+        problem = self._problem(caller)
         wanted = {"thickness": self.thickness, "stress": self.stress, "speed": self.speed}
+        if self.case is not None:
+            wanted["speed"] = self.speed or problem.protocol.speed
+            if self.stress is None:
+                wanted["thickness"] = self.thickness or problem.body.thickness
         wanted = {name: value for name, value in wanted.items() if value is not None}
-        if self.case is None:
-            pad, solid = self._of_flags(caller)
-        else:
-            problem = self._of_case(caller.file(self.case), caller)
-            pad, solid = _pad_of(problem), problem.material
-            stated = {} if "stress" in wanted else {"thickness": problem.body.thickness}
-            if problem.protocol.speed is not None:
-                stated["speed"] = problem.protocol.speed
-            wanted = stated | wanted
         if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
             raise InputError(
                 'speed is missing, the retraction speed; for example "100 um/s"', field="speed"
             )
-        return pad, solid, wanted
+        return pad_of(problem), problem.material, wanted
 
-    def _of_case(self, case: Path, caller: Caller) -> Any:
-        """Return the problem of a case file."""
-        from viscotack.model.geometry import FlatPunch
-        from viscotack.model.problem import Groups
-        from viscotack.model.problem.case_file import read_case
-
-        if self._of_pad:
-            given = ", ".join(self._of_pad)
-            raise InputError(f"{case} defines the whole problem; leave out {given}")
-        problem = read_case(case, beside=caller.within(case).file)
-        if not isinstance(problem.geometry, FlatPunch) or isinstance(problem, Groups):
-            raise InputError(
-                f"{case} states a {problem.geometry.word} or no units; this command needs a "
-                "flat punch in SI"
-            )
-        return problem
-
-    def _of_flags(self, caller: Caller) -> "tuple[Pad, Material]":
-        from viscotack.model.geometry import Bonded, Frictionless
+    def _problem(self, caller: Caller) -> Any:
+        """Return the problem of the case file, or of the options as `simulate punch` reads them."""
         from viscotack.model.materials.library import MATERIALS
-        from viscotack.theory.punch import Pad
+        from viscotack.model.materials.passport import Passport
 
-        given, words = self._of_pad, self.material or ""
-        passport = not isinstance(words, str) or words.endswith(".toml") or words in MATERIALS
-        needed = ["half_width", "work_of_adhesion", "strength"]
-        needed += [] if passport else ["contact_modulus"]
-        if missing := [name for name in needed if name not in given]:
-            raise InputError(f"{quoted(missing)} missing")
-        if passport:
-            if beside := [name for name in _OF_SOLID if name in given]:
-                raise InputError(f"{words} defines the whole material; leave out `{beside[0]}`")
-            solid = passport_of(words, caller).material
-            modulus = solid.contact_modulus
+        said: dict[str, Any] = {"indenter": "punch"}
+        for name in (*_OF_PAD, "thickness", "speed"):
+            value = getattr(self, name)
+            unit = getattr(option_of(OfPad.model_fields[name]), "unit", "1")
+            said[name] = value if value is None or unit == "1" else f"{value!r} {unit}"
+        passport = self.material if isinstance(self.material, Passport) else None
+        if passport is not None:
+            # a published material stands in for the object
+            said["material"] = MATERIALS[0]
+        if self.case is not None:
+            said |= {"case": str(self.case), "thickness": None, "speed": None}
         else:
-            modulus = given["contact_modulus"]
-            solid = self._solid_in_si(modulus, caller)
-        pad = Pad(
-            half_width=given["half_width"],
-            contact_modulus=modulus,
-            work_of_adhesion=given["work_of_adhesion"],
-            strength=given["strength"],
-            base=Frictionless() if self.bonded is None else Bonded(poisson_ratio=self.bonded),
-        )
-        return pad, solid
-
-    def _solid_in_si(self, contact_modulus: float, caller: Caller) -> "Material":
-        from viscotack.model.materials import Elastic
-        from viscotack.model.problem.units import material_in_si
-
-        solid, unit = self.solid(caller, "sls")
-        if isinstance(solid, Elastic) or unit != "1":
-            if self.tau0 is not None:
-                raise InputError("the material has its times; leave out tau0", field="tau0")
-            time = parse("1 s" if unit == "1" else f"1 {unit}", "s")
-        elif self.tau0 is None:
-            raise InputError("tau0 is missing, the time of the material", field="tau0")
-        else:
-            time = self.tau0
-        # only times and ratios of it are used
-        return material_in_si(solid, contact_modulus, time, 0.0)
+            # the start does not matter to the theory, nor thickness and speed of a wanted stress
+            usual = {"thickness": said["half_width"], "speed": "1 m/s", "preload": "0 m"}
+            said = usual | {name: value for name, value in said.items() if value is not None}
+        problem: Any = statement(said, _PUNCH, caller).problem
+        if problem.scales() is None:
+            raise InputError(f"{self.case} states no units; this command needs a flat punch in SI")
+        return problem if passport is None else replace(problem, material=passport.material)
 
 
-def _pad_of(problem: Any) -> "Pad":
+def pad_of(problem: Any) -> "Pad":
+    """Return the pad of a problem of a punch in SI."""
     from viscotack.theory.punch import Pad
 
     return Pad(
@@ -243,7 +190,6 @@ def _asked(pad: "Pad", law: "CrackLaw", wanted: Mapping[str, float]) -> dict[str
     state = punch.pull_off(speed, pad, law, thickness=b)
     slow = float(pad.elastic_stress(b))
     fast = slow / law.material.modulus_ratio**0.5
-    running = np.isfinite(state.crack_speed)
     return {
         "regime": str(found.regime[0, 0]),
         "pull_off_stress_Pa": state.stress,
@@ -251,7 +197,7 @@ def _asked(pad: "Pad", law: "CrackLaw", wanted: Mapping[str, float]) -> dict[str
         "fastest_pull_off_stress_Pa": min(fast, pad.strength),
         "depth_at_pull_off_m": state.depth,
         "ligament_at_pull_off_m": state.ligament,
-        "crack_speed_at_pull_off_m_per_s": state.crack_speed if running else None,
+        "crack_speed_at_pull_off_m_per_s": state.crack_speed,
         "effective_surface_energy": state.amplification,
     }
 
@@ -269,12 +215,3 @@ def _map(pad: "Pad", law: "CrackLaw") -> "RegimeMap":
     speed = np.geomspace(slow, fast, _ROWS)
     thinnest = min(_THIN * float(_boundaries(pad, law)["cohesive_below_m"]), 0.1 * a)
     return punch.regime_map(np.geomspace(thinnest, _THICK * a, _ROWS), speed, pad, law)
-
-
-def _rows(found: "RegimeMap") -> dict[str, Any]:
-    return {
-        "thickness_m": found.thickness.tolist(),
-        "speed_m_per_s": found.speed.tolist(),
-        "regime": found.regime.tolist(),
-        "pull_off_stress_Pa": found.stress.tolist(),
-    }

@@ -3,28 +3,27 @@
 from dataclasses import replace
 from math import log
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
-
-from pydantic import Field
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from viscotack.errors import InputError
 from viscotack.units import is_number, readable
 
 from .flags import INDENTERS
 from .forecast import fitted
+from .parts.record_words import read
 from .parts.solid import passport_of
 from .request import (
     Answer,
     Caller,
-    Contact,
-    File,
-    Named,
-    Number,
-    Option,
     Request,
-    Text,
+    contact,
     csv_file,
+    file_name,
+    named,
+    number,
+    option,
     picture,
+    text,
 )
 
 if TYPE_CHECKING:
@@ -70,57 +69,44 @@ class OfUncertainty(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Annotated[
-        Any, Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case")
-    ]
-    scatter: Annotated[
-        tuple[str, ...],
-        Text(
-            'A number and its relative standard deviation, "protocol.speed 5 %".',
-            metavar="TEXT",
-            to=_deviation,
-        ),
-    ] = ()
-    passport: Annotated[
-        Any,
-        Named(
-            "A passport, or the name of a published material, in place of the material; its "
-            "sampled solids, or its intervals, are its uncertainty.",
-            metavar="PASSPORT",
-        ),
-    ] = None
-    temperature: Annotated[
-        float | None, Number('Temperature, "25 degC"; default: that of the passport.', unit="K")
-    ] = None
-    temperature_uncertainty: Annotated[
-        float | None,
-        Number(
-            'Standard uncertainty of the temperature, "0.5 K". It changes the times of the '
-            "material by the shift of the passport.",
-            unit="K",
-            above=0,
-        ),
-    ] = None
-    study: Annotated[
-        Path | None,
-        File(
-            "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
-            "place of the interface.",
-            metavar="STUDY",
-        ),
-    ] = None
-    confidence: Annotated[float, Number("Fraction inside the band.", above=0, most=0.999)] = 0.9
-    samples: Annotated[int, Option("Number of predictions."), Field(ge=6, le=10_000)] = 256
-    seed: Annotated[int, Option("Seed of the drawn problems."), Field(ge=0, lt=2**32)] = 0
-    budget: Annotated[
-        float,
-        Number(
-            "Time budget of each prediction, as for viscotack predict.",
-            unit="s",
-            above=0,
-            bare=True,
-        ),
-    ] = 1.0
+    problem: Any = contact(
+        "The problem at its stated inputs.", indenters=INDENTERS, spelling="case", default=...
+    )
+    scatter: tuple[str, ...] = text(
+        'A number and its relative standard deviation, "protocol.speed 5 %".',
+        metavar="TEXT",
+        to=_deviation,
+        default=(),
+    )
+    passport: Any = named(
+        "A passport, or the name of a published material, in place of the material; its "
+        "sampled solids, or its intervals, are its uncertainty.",
+        metavar="PASSPORT",
+    )
+    temperature: float | None = number(
+        'Temperature, "25 degC"; default: that of the passport.', "K"
+    )
+    temperature_uncertainty: float | None = number(
+        'Standard uncertainty of the temperature, "0.5 K". It changes the times of the '
+        "material by the shift of the passport.",
+        "K",
+        above=0,
+    )
+    study: Path | None = file_name(
+        "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
+        "place of the interface.",
+        metavar="STUDY",
+    )
+    confidence: float = number("Fraction inside the band.", above=0, most=0.999, default=0.9)
+    samples: int = option("Number of predictions.", default=256, ge=6, le=10_000)
+    seed: int = option("Seed of the drawn problems.", default=0, ge=0, le=2**32 - 1)
+    budget: float = number(
+        "Time budget of each prediction, as for viscotack predict.",
+        "s",
+        above=0,
+        bare=True,
+        default=1.0,
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Predict the drawn problems, telling ``share``."""
@@ -162,7 +148,7 @@ class OfUncertainty(Request):
         unit = force.unit.text if problem.scales() is None else force.unit.si
         return Answer(
             found,
-            record=lambda: _record(found, rows, unit),
+            data=lambda: _record(found, rows, unit),
             words=lambda: _shown(found, rows, force.words, unit),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_uncertainty(found)},
@@ -226,18 +212,10 @@ _INTERFACES = 64
 
 def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict[str, Any]:
     """Return the numbers of the answer."""
-    return {
-        "pull_off": found.pull_off_force,
-        "median": found.median,
-        "interval": list(found.interval),
-        "unit": unit,
-        "confidence": found.confidence,
-        "deviation": found.deviation,
-        "inputs": rows,
-        "index_error": found.index_error,
-        "interpolation_error": found.interpolation_error,
-        "methods": dict(found.methods),
-    }
+    names = ("median", "interval", "confidence", "deviation", "methods")
+    names += ("index_error", "interpolation_error")
+    about = {"pull_off": found.pull_off_force, "unit": unit, "inputs": rows}
+    return about | read(found, *names)
 
 
 def _shown(
@@ -255,5 +233,5 @@ def _shown(
             row | {name: f"{row[name]:.1%}" for name in ("first", "total")}
             for row in sorted(rows, key=lambda x: -x["total"])
         ],
-        "methods": dict(found.methods),
+        "methods": found.methods,
     }

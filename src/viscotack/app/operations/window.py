@@ -1,13 +1,13 @@
 """The operation ``window``: pick and print by speed and preload."""
 
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .parts.record_words import read
-from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .request import Answer, Caller, Request, csv_file, file_name, picture, switch
 from .simulate import Accuracy, Limit
 
 
@@ -30,18 +30,15 @@ class OfWindow(Request):
     )
     takes_own: ClassVar = True
 
-    file: Annotated[
-        Path,
-        File(
-            "The contacts [stamp], [donor] and [receiver], and [pull] with speeds and preloads.",
-            metavar="WINDOW.toml",
-            argument=True,
-        ),
-    ]
-    simulate: Annotated[
-        bool,
-        Option("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
-    ] = False
+    file: Path = file_name(
+        "The contacts [stamp], [donor] and [receiver], and [pull] with speeds and preloads.",
+        metavar="WINDOW.toml",
+        argument=True,
+        default=...,
+    )
+    simulate: bool = switch(
+        "Simulate both contacts in one march where steady cracks do not decide (seconds)."
+    )
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 60.0
 
@@ -87,7 +84,7 @@ class OfWindow(Request):
         columns = [*first, *_CELL, *(_YIELD if scattered else ())]
         return Answer(
             tuple(maps) if len(maps) > 1 else maps[0],
-            record=lambda: {"cells": cells, "critical_speeds": critical},
+            data=lambda: {"cells": cells, "critical_speeds": critical},
             words=lambda: _shown(cells, critical),
             files={
                 "csv": rows_as_csv(cells, columns),

@@ -19,7 +19,7 @@ def closed_form(
     """Return the answer with numbers, or lists of them, by name; `curve` is drawn as a line."""
     return Answer(
         found,
-        record=lambda: record,
+        data=lambda: record,
         pictures={"plot": lambda: _drawn(curve, labels, logarithmic)},
     )
 

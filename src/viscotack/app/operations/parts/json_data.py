@@ -1,5 +1,6 @@
 """Conversion of numbers to JSON: plain lists, None for missing values."""
 
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ _DRAWN = 7
 
 
 def plain(value: Any) -> Any:
-    """Convert a value to JSON types: arrays to lists, NaN and infinity to None.
+    """Convert a value to JSON types: arrays to lists, objects to tables, NaN and infinity to None.
 
     Examples
     --------
@@ -18,6 +19,8 @@ def plain(value: Any) -> Any:
     """
     if isinstance(value, dict):
         return {str(key): plain(entry) for key, entry in value.items()}
+    if is_dataclass(value):
+        return {each.name: plain(getattr(value, each.name)) for each in fields(value)}
     if isinstance(value, np.ndarray):
         return plain(value.tolist())
     if isinstance(value, list | tuple):

@@ -84,7 +84,7 @@ def predict_changes(
 
     return Answer(
         found,
-        record=lambda: record,
+        data=lambda: record,
         words=lambda: _shown(changes, found, record),
         units=units_of(stated.problem.groups().outputs),
         files={"csv": lambda target: write_table(table, target), "xlsx": in_workbook},

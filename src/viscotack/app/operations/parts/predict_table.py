@@ -94,7 +94,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
         }
 
     files: dict[str, Writer] = {"csv": answered, "xlsx": in_workbook}
-    return Answer(methods, record=record, files=files)
+    return Answer(methods, data=record, files=files)
 
 
 def refuse_answered(where: Any, headings: Iterable[str], answers: Iterable[str]) -> None:

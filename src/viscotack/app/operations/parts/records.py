@@ -2,13 +2,11 @@
 
 from dataclasses import asdict
 from itertools import zip_longest
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from viscotack.units import readable
 
-from .json_data import plain
 from .record_words import read, rows_of
 
 _MEASURED = ("pull_off_force_N", "depth_at_pull_off_m", "work_to_pull_off_J")
@@ -18,27 +16,20 @@ _PLAIN = ("pull_off_raw_N", "dwell_time_s", "approach_speed_m_s", "noise_N", "te
 
 def passport_record(passport: Any) -> dict[str, Any]:
     """Return a material passport; unbounded and unknown values are None."""
-    return plain(
-        asdict(passport)
-        | {
-            "material": _material_record(passport.material),
-            "modulus_ratio": passport.material.modulus_ratio,
-        }
-    )
+    return asdict(passport) | {
+        "material": _material_record(passport.material),
+        "modulus_ratio": passport.material.modulus_ratio,
+    }
 
 
 def fit_record(report: Any, passport: Any) -> dict[str, Any]:
     """Return a fitted material: its passport, or the law alone where it has none."""
     more = {"criterion": dict(report.compared), "median_error": report.median_error}
     if passport is not None:
-        return passport_record(passport) | plain(more)
-    evidence = {
-        "level": report.level,
-        "intervals": [(each.name, each.low, each.high) for each in report.intervals],
-        "undetermined": report.undetermined,
-        "cautions": report.cautions,
-    }
-    return plain({"material": _material_record(report.material), "evidence": evidence} | more)
+        return passport_record(passport) | more
+    evidence = read(report, "level", "undetermined", "cautions")
+    evidence["intervals"] = [(each.name, each.low, each.high) for each in report.intervals]
+    return {"material": _material_record(report.material), "evidence": evidence} | more
 
 
 def _material_record(material: Any) -> dict[str, Any]:
@@ -150,7 +141,7 @@ def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) 
             "format": one.record.source.format,
             "cycles": [
                 cycle_row(cycle, radius, law)
-                | {"notes": list(cycle.source.notes), "cautions": list(cycle.cautions)}
+                | {"notes": cycle.source.notes, "cautions": cycle.cautions}
                 for cycle in one.cycles
             ],
             "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
@@ -172,25 +163,17 @@ def slow_record(fit: Any) -> dict[str, Any]:
     The work is None where it is an upper bound, or undetermined between the models in "alike".
     """
     names = ("model", "work_of_adhesion_J_m2", "contact_modulus_Pa", "tabor", "scatter_N")
-    fits = [
-        read(one, *names, "criterion")
-        | {"intervals": {name: asdict(interval) for name, interval in one.intervals.items()}}
-        for one in fit.fits
-    ]
+    names += ("criterion", "intervals")
     return {
         "work_of_adhesion_J_m2": (
             None if fit.upper_bound or fit.undetermined else fit.best.work_of_adhesion
         ),
-        "undetermined": fit.undetermined,
         "alike": [one.model for one in fit.alike],
-        "interval": asdict(fit.work_of_adhesion),
-        "upper_bound": list(fit.upper_bound),
+        "interval": fit.work_of_adhesion,
         "against": fit.test.against,
-        "points": int(fit.test.force.size),
-        "level": fit.level,
-        "evidence": fit.evidence,
-        "fits": fits,
-        "words": list(fit.words),
+        "points": fit.test.force.size,
+        "fits": [read(one, *names) for one in fit.fits],
+        **read(fit, "undetermined", "upper_bound", "level", "evidence", "words"),
     }
 
 
@@ -198,19 +181,18 @@ def rates_record(fit: Any) -> dict[str, Any]:
     """Return the interface parameters identified from a rate series."""
     return {
         **interface_record(fit),
-        "tabor": fit.tabor,
         "range_bound_m": fit.given.range_bound,
         **_series_record(fit),
         "criterion_of_edge_law": None if fit.edge is None else fit.edge.criterion,
         "layer": _layer_record(fit.forward.body),
         "growth": None if fit.growth is None else _growth_record(fit.growth),
-        "words": list(fit.words),
+        **read(fit, "tabor", "words"),
     }
 
 
 def edge_record(fit: Any) -> dict[str, Any]:
     """Return the edge law identified from a rate series."""
-    return {**interface_record(fit), **_series_record(fit), "words": list(fit.words)}
+    return {**interface_record(fit), **_series_record(fit), **read(fit, "words")}
 
 
 def interface_record(fit: Any) -> dict[str, float]:
@@ -225,13 +207,10 @@ def interface_record(fit: Any) -> dict[str, float]:
 def _series_record(fit: Any) -> dict[str, Any]:
     """Return intervals, scatter and forces of any fit of a rate series."""
     return {
-        "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
-        "scatter": fit.scatter,
+        **read(fit, "intervals", "scatter", "trend", "criterion"),
         "scatter_between_speeds": fit.between_speeds,
-        "trend": fit.trend,
         "describes_tests": not fit.misfit,
-        "criterion": fit.criterion,
-        "solutions": [dict(one.values) for one in fit.solutions],
+        "solutions": [one.values for one in fit.solutions],
         "series": [
             {
                 "temperature_K": one.temperature,
@@ -271,6 +250,4 @@ def _growth_record(found: Any) -> dict[str, Any]:
     names = ("strengthening", "opening_speed_m_s", "exponent", "reference_speed_m_s")
     shares = ("speed_m_s", "edge_speed_m_s", "energy", "bulk", "interface")
     record = read(found, *names, "better_by", "chance")
-    if not isfinite(found.reference_speed):
-        record["reference_speed_m_s"] = None
     return record | {"shares": [read(one, *shares) for one in found.shares]}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from viscotack.errors import InputError
 
-from ..request import Caller, File, Number, Option, Request, Text
+from ..request import Caller, File, Request, number, option, switch, text
 from .dma import Where
 
 if TYPE_CHECKING:
@@ -53,91 +53,57 @@ class Rig(Request):
 
     files: Files
 
-    format: Annotated[str | None, Option("Format of the files, if it is not detected.")] = None
-    force_unit: Annotated[
-        str | None, Text("Unit such as mN, if not in the file.", to=_unit_of("force"))
-    ] = None
-    length_unit: Annotated[
-        str | None, Text("Unit such as um, if not in the file.", to=_unit_of("travel"))
-    ] = None
-    time_unit: Annotated[
-        str | None, Text("Unit such as s, if not in the file.", to=_unit_of("time"))
-    ] = None
-    force_column: Annotated[
-        str | None, Option("Heading or number of the force column, if not detected.")
-    ] = None
-    position_column: Annotated[
-        str | None,
-        Option("Heading or number of the gap, depth or travel column, if there are several."),
-    ] = None
-    time_column: Annotated[
-        str | None, Option("Heading or number of the time column, if not detected.")
-    ] = None
-    decimal: Annotated[
-        str | None, Option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
-    ] = None
+    format: str | None = option("Format of the files, if it is not detected.")
+    force_unit: str | None = text("Unit such as mN, if not in the file.", to=_unit_of("force"))
+    length_unit: str | None = text("Unit such as um, if not in the file.", to=_unit_of("travel"))
+    time_unit: str | None = text("Unit such as s, if not in the file.", to=_unit_of("time"))
+    force_column: str | None = option("Heading or number of the force column, if not detected.")
+    position_column: str | None = option(
+        "Heading or number of the gap, depth or travel column, if there are several."
+    )
+    time_column: str | None = option("Heading or number of the time column, if not detected.")
+    decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
     where: Where = None
-    nominal_speed: Annotated[
-        float | None,
-        Number('Nominal speed, "10 um/s", if a file has no time; it is not checked.', unit="m/s"),
-    ] = None
-    spring_constant: Annotated[
-        float | None,
-        Number(
-            "Spring constant of a cantilever, if its file does not state it (NT-MDT, MEMS).",
-            unit="N/m",
-        ),
-    ] = None
-    sensitivity: Annotated[
-        float | None,
-        Number(
-            'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it '
-            "(NT-MDT).",
-            unit="m/A",
-        ),
-    ] = None
-    temperature_in_name: Annotated[
-        bool,
-        Option(
-            "Read the temperature from the name of each file, as in probe_25C.csv; default: from "
-            "a column or a line above the columns with a unit."
-        ),
-    ] = False
-    compliance: Annotated[
-        float | None,
-        Number(
-            'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
-            "For a cantilever with a stiffness in its file the correction is automatic.",
-            unit="m/N",
-        ),
-    ] = None
-    compliance_uncertainty: Annotated[
-        float,
-        Number(
-            "Standard uncertainty of the compliance; propagated to depths and works, and by "
-            "`identify rates` to the interface, there 10 % by default.",
-            unit="m/N",
-        ),
-    ] = 0.0
-    into: Annotated[
-        int,
-        Text(
-            "Whether larger positions are deeper, if heading and signal do not show it.",
-            metavar="+|-",
-            to=_sign,
-        ),
-    ] = 0
-    compression: Annotated[
-        int,
-        Text(
-            "Sign of compression in the files; rejected if the signal contradicts it.",
-            metavar="+|-",
-            to=_sign,
-        ),
-    ] = 0
-    retraction_only: Annotated[
-        bool, Option("Accept curves without approach; the force zero is then taken after pull-off.")
-    ] = False
+    nominal_speed: float | None = number(
+        'Nominal speed, "10 um/s", if a file has no time; it is not checked.', "m/s"
+    )
+    spring_constant: float | None = number(
+        "Spring constant of a cantilever, if its file does not state it (NT-MDT, MEMS).", "N/m"
+    )
+    sensitivity: float | None = number(
+        'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it (NT-MDT).',
+        "m/A",
+    )
+    temperature_in_name: bool = switch(
+        "Read the temperature from the name of each file, as in probe_25C.csv; default: from "
+        "a column or a line above the columns with a unit."
+    )
+    compliance: float | None = number(
+        'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
+        "For a cantilever with a stiffness in its file the correction is automatic.",
+        "m/N",
+    )
+    compliance_uncertainty: float = number(
+        "Standard uncertainty of the compliance; propagated to depths and works, and by "
+        "`identify rates` to the interface, there 10 % by default.",
+        "m/N",
+        default=0.0,
+    )
+    into: int = text(
+        "Whether larger positions are deeper, if heading and signal do not show it.",
+        metavar="+|-",
+        to=_sign,
+        default=0,
+    )
+    compression: int = text(
+        "Sign of compression in the files; rejected if the signal contradicts it.",
+        metavar="+|-",
+        to=_sign,
+        default=0,
+    )
+    retraction_only: bool = switch(
+        "Accept curves without approach; the force zero is then taken after pull-off."
+    )
 
     @property
     def reading(self) -> dict[str, Any]:

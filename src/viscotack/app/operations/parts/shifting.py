@@ -1,14 +1,14 @@
 """Options for the master curve: time-temperature superposition of tests."""
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-from ..request import Caller, File, Number, Option, Request, Text, quoted, two_of
+from ..request import Caller, Request, file_name, number, option, quoted, text, two_of
 
 _SEVERAL = 3.0  # K: a chamber holds its temperature better
 _MOVES = ("none", "auto", "free")
@@ -36,30 +36,20 @@ def _constants(value: Any) -> tuple[float, float]:
 class ShiftLaw(Request):
     """Options for a known shift of tests at several temperatures; temperatures in K."""
 
-    reference_temperature: Annotated[
-        float | None,
-        Number(
-            'Temperature of the master curve, "20 degC"; required for a shift, and for a DMA at '
-            "several temperatures.",
-            unit="K",
-        ),
-    ] = None
-    glass_transition: Annotated[
-        float | None,
-        Number(
-            'Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC".',
-            unit="K",
-        ),
-    ] = None
-    wlf: Annotated[
-        tuple[float, float] | None,
-        Text(
-            'Shift by WLF with these constants, "8.86,101.6 K", at the reference temperature.',
-            metavar="C1,C2",
-            to=_constants,
-        ),
-    ] = None
-    shift_file: Annotated[Path | None, File("Shift by this table of log_aT.")] = None
+    reference_temperature: float | None = number(
+        'Temperature of the master curve, "20 degC"; required for a shift, and for a DMA at '
+        "several temperatures.",
+        "K",
+    )
+    glass_transition: float | None = number(
+        'Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC".', "K"
+    )
+    wlf: tuple[float, float] | None = text(
+        'Shift by WLF with these constants, "8.86,101.6 K", at the reference temperature.',
+        metavar="C1,C2",
+        to=_constants,
+    )
+    shift_file: Path | None = file_name("Shift by this table of log_aT.")
 
     def check(self) -> None:
         """Check that at most one shift is given, with its reference temperature."""
@@ -100,28 +90,21 @@ class ShiftLaw(Request):
 class Shifting(ShiftLaw):
     """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
 
-    shift_by: Annotated[
-        Literal["both", "storage", "loss", "tan"] | None,
-        Option(
-            "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
-            "they are by default. Default without --vertical: both, or storage if it is clearly "
-            "more causal."
-        ),
-    ] = None
-    vertical: Annotated[
-        str | float | None,
-        Text(
-            "Vertical shift with temperature: none (the default), auto (as far as the data "
-            "determine it), free, or by density and temperature with a volume expansion of "
-            '"6e-4 1/K".',
-            metavar="WORD|EXPANSION",
-            to=_moving,
-        ),
-    ] = None
-    leave_out: Annotated[
-        tuple[float, ...],
-        Number('Exclude the sweep at this temperature, "-30 degC". Can be repeated.', unit="K"),
-    ] = ()
+    shift_by: Literal["both", "storage", "loss", "tan"] | None = option(
+        "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
+        "they are by default. Default without --vertical: both, or storage if it is clearly "
+        "more causal."
+    )
+    vertical: str | float | None = text(
+        "Vertical shift with temperature: none (the default), auto (as far as the data "
+        "determine it), free, or by density and temperature with a volume expansion of "
+        '"6e-4 1/K".',
+        metavar="WORD|EXPANSION",
+        to=_moving,
+    )
+    leave_out: tuple[float, ...] = number(
+        'Exclude the sweep at this temperature, "-30 degC". Can be repeated.', "K", default=()
+    )
 
     def check(self) -> None:
         """Check that one shift is given with its parameters."""

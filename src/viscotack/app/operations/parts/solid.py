@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from viscotack.errors import InputError
 
 from ..flags import FLAGS, material_table, needs_of
-from ..request import Caller, Named, Number, Request, quoted
+from ..request import Caller, Named, Request, named, number, quoted
 
 if TYPE_CHECKING:
     from viscotack.model.materials.material import Material
@@ -46,16 +46,13 @@ def solid_of(given: "str | Passport", caller: Caller) -> "Passport | Material":
 class Reduced(Request):
     """A request for a dimensionless material: a model with its numbers, or a file."""
 
-    material: Annotated[
-        Any,
-        Named(
-            "power-law (also when left out; theory steady-crack without --exponent takes sls), "
-            "sls, prony:FILE or a passport FILE.toml, as for simulate sphere.",
-            metavar="MATERIAL",
-        ),
-    ] = None
-    modulus_ratio: Annotated[float | None, Number(FLAGS["modulus-ratio"].words, above=0)] = None
-    exponent: Annotated[float | None, Number(FLAGS["exponent"].words, above=0)] = None
+    material: Any = named(
+        "power-law (also when left out; theory steady-crack without --exponent takes sls), "
+        "sls, prony:FILE or a passport FILE.toml, as for simulate sphere.",
+        metavar="MATERIAL",
+    )
+    modulus_ratio: float | None = number(FLAGS["modulus_ratio"].words, above=0)
+    exponent: float | None = number(FLAGS["exponent"].words, above=0)
 
     @property
     def given(self) -> dict[str, Any]:
@@ -63,15 +60,11 @@ class Reduced(Request):
         said = {name: getattr(self, name) for name in Reduced.model_fields}
         return {name: value for name, value in said.items() if value is not None}
 
-    def solid(self, caller: Caller, usual: str = "power-law") -> "tuple[Material, str]":
-        """Return the solid, and the unit of its times if a file states one, else "1".
-
-        `usual` is the word of the material where none is said.
-        """
+    def solid(self, caller: Caller, usual: str = "power-law") -> "Material":
+        """Return the solid; `usual` is the word of the material where none is said."""
         from viscotack.model.materials.passport import Passport
         from viscotack.model.problem.case_file import material_of
         from viscotack.model.problem.nouns import known
-        from viscotack.model.problem.prony_file import read_prony
         from viscotack.model.problem.tables import Reading
 
         nouns, words = known(caller.also), self.material or usual
@@ -80,13 +73,10 @@ class Reduced(Request):
                 raise InputError(
                     f"{words.name} defines the whole material; leave out `{beside[0]}`"
                 )
-            return words.material.reduced(), "1"
-        said = {name.replace("_", "-"): value for name, value in self.given.items()}
-        table = material_table(words, said, nouns=nouns)
-        needed = [n for n in ("modulus_ratio", "exponent") if n in needs_of(words, nouns)]
-        if missing := [name for name in needed if name not in self.given]:
+            return words.material.reduced()
+        table = material_table(words, self.given, nouns=nouns)
+        if missing := [name for name in needs_of(words, nouns) if name not in self.given]:
             raise InputError(
                 f"{quoted(missing)} missing for the material {words}", field=missing[0]
             )
-        unit = "1" if "file" not in table else read_prony(caller.file(table["file"]))[1]
-        return material_of(table, Reading("the material", nouns, caller.file, pure=True)), unit
+        return material_of(table, Reading("the material", nouns, caller.file, pure=True))

@@ -21,14 +21,11 @@ def rows_as_csv(rows: Sequence[dict[str, Any]], columns: Sequence[str] = ()) -> 
     The columns are the keys of the first row; a table that may be empty needs them.
     """
 
-    def text() -> str:
-        stream = io.StringIO(newline="")
-        writer = csv.DictWriter(stream, columns or list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        return stream.getvalue()
+    def write(target: "Target") -> None:
+        names = columns or list(rows[0])
+        write_table({name: [row.get(name) for row in rows] for name in names}, target)
 
-    return as_text(text)
+    return write
 
 
 def as_text(text: Callable[[], str]) -> Writer:
