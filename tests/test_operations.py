@@ -214,7 +214,7 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
     assert (folder / "lens_1_um_s.csv").read_bytes() == before
 
 
-@pytest.mark.parametrize("target, refused", [("./lens_1_um_s.csv", True), ("lens.toml", False)])
+@pytest.mark.parametrize("target, refused", [("./lens_1_um_s.csv", True), ("pdms_dma.csv", False)])
 def test_force_replaces_files_but_none_that_was_read(folder, target, refused):
     before = (folder / target).read_bytes()
     status, _, said = run(["test", "read", "lens_1_um_s.csv", "--csv", target, "--force"])
