@@ -13,7 +13,6 @@ import numpy as np
 
 import viscotack as vt
 from viscotack.model.protocol import Dwell, LoadTo
-from viscotack.result.dead_load import time_to_detachment
 from viscotack.theory import jkr, lennard_jones, persson_brener
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
@@ -91,7 +90,9 @@ def main(loads=LOADS, accuracy: float = 2e-3, picture: Path = PICTURE) -> list[f
     times = []
     for load in loads:
         problem = hanging(load * elastic)
-        times.append(time_to_detachment(vt.solve(problem, accuracy=accuracy, estimate_error=False)))
+        times.append(
+            vt.time_to_detachment(vt.solve(problem, accuracy=accuracy, estimate_error=False))
+        )
         expected = crack_time(load * jkr.pull_off_force(radius=RADIUS, work_of_adhesion=WORK))
         print(f"{load * elastic * 1e3:8.2f}{times[-1]:14.3f}{expected:9.3f}", flush=True)
     picture.parent.mkdir(parents=True, exist_ok=True)
