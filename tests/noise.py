@@ -9,14 +9,14 @@ from unittest.mock import patch
 
 import numpy as np
 
-from viscotack.simulate import equilibrium, surface
+from viscotack.simulate import equilibrium, growth, surface
 
 
 @contextmanager
 def noise(seed, size=1e-14):
     """Put noise of this relative size into all that simulations in this block work out."""
     random = np.random.default_rng(seed)
-    factor, at, stiffness = equilibrium._factor, equilibrium._Elastic.at, surface.stiffness
+    factor, at, stiffness = equilibrium.factored, equilibrium.Elastic.at, surface.stiffness
 
     def noisy(value):
         return value * (1 + size * random.uniform(-1, 1, np.shape(value)))
@@ -35,8 +35,9 @@ def noise(seed, size=1e-14):
 
     with ExitStack() as stack:
         for owner, name, function in (
-            (equilibrium, "_factor", noisy_factor),
-            (equilibrium._Elastic, "at", noisy_at),
+            (equilibrium, "factored", noisy_factor),
+            (growth, "factored", noisy_factor),
+            (equilibrium.Elastic, "at", noisy_at),
             (surface, "stiffness", noisy_stiffness),
         ):
             stack.enter_context(patch.object(owner, name, function))

@@ -313,7 +313,7 @@ def test_a_picture_has_the_curve_its_interval_and_the_simulation(tmp_path):
     figure = vt.draw_prediction(answer, result)
     (axes,) = figure.axes
     drawn = axes.lines[1].get_ydata()[::8]
-    assert drawn == pytest.approx(answer.curve.force * problem.scales().force * 1e3, rel=1e-12)
+    assert drawn == pytest.approx(answer.curve.force * problem.scales().force, rel=1e-12)
     vt.save_figure(figure, tmp_path / "curve.png")
     assert (tmp_path / "curve.png").stat().st_size > 1000
     with pytest.raises(ValueError, match="has no force curve to draw"):
