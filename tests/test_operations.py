@@ -222,6 +222,14 @@ def test_force_replaces_files_but_none_that_was_read(folder, target, refused):
     assert ((folder / target).read_bytes() == before) == refused
 
 
+def test_force_replaces_no_study_by_its_own_output(folder):
+    study, asked = folder / "asked.toml", 'operation = "identify edge"\nradius = "5.19 mm"\n'
+    asked += f"contact_modulus = 2e6\nfiles = {[*LENS, 'lens_slow.csv']}\n"
+    study.write_text(asked + '[write]\noutput = "asked.toml"\n')
+    status, _, said = run(["study", study, "--force"])
+    assert status == 2 and "is an input" in said and study.read_text().startswith(asked)
+
+
 GARBAGE = [{}, {"a": 1}, True, "x", -1, 1e308, float("nan"), "1e400", b"x", object(), [None], "\0"]
 
 

@@ -13,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack import Quantity
-from viscotack.cards import conform
 from viscotack.model.materials import Modes
 from viscotack.model.materials.constants import (
     GlassyModulus,
@@ -22,13 +21,14 @@ from viscotack.model.materials.constants import (
     RubberyModulus,
 )
 from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.material import Solid
 from viscotack.model.materials.modes import FINEST, compressed
 
 Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class ColeCole:
+class ColeCole(Solid):
     r"""A spring in series with a spring and a springpot side by side.
 
     .. math:: C^*(\omega) = C_\infty + \frac{C_0 - C_\infty}{1 + (i \omega \tau_0)^a}, \quad
@@ -62,24 +62,6 @@ class ColeCole:
     ]
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self) -> None:
-        conform(self)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
-    def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: tau0."""
-        return self.tau0
-
     def complex_compliance(self, omega: npt.ArrayLike) -> npt.NDArray[np.complex128]:
         """Return C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
@@ -87,10 +69,6 @@ class ColeCole:
         with np.errstate(invalid="ignore"):
             passed = np.where(np.isinf(x), 0.0, 1 / (1 + (1j * x) ** self.order))
         return Cinf + (C0 - Cinf) * passed
-
-    def complex_modulus(self, omega: npt.ArrayLike) -> npt.NDArray[np.complex128]:
-        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_compliance(omega)
 
     def creep(self, time: npt.ArrayLike) -> Array:
         """Return the creep compliance [1/Pa] at times [s]."""

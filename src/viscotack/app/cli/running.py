@@ -24,7 +24,7 @@ def carry_out(
     own: Iterable[str | Path],
     *,
     as_json: bool,
-    folder: Path = Path(),
+    study: Path | None = None,
 ) -> None:
     """Run a request, show its progress, write the wanted outputs, and exit with its status.
 
@@ -38,15 +38,16 @@ def carry_out(
         Files with user-defined classes.
     as_json : bool
         Whether the answer is printed as one JSON object.
-    folder : Path
-        Of the file names in the request.
+    study : Path, optional
+        File with the request, in whose folder its file names are.
     """
     from viscotack.model.problem.nouns import own_nouns
 
     wants = frozenset(output.name for output, file in files.items() if file is not None)
     paths = tuple(str(Path(file).resolve()) for file in own)
     with progress() as tell:
-        caller = Caller(tell, wants, own_nouns(own), paths, folder)
+        caller = Caller(tell, wants, own_nouns(own), paths, study.parent if study else Path())
+        caller.read.extend([*map(Path, paths), *([study] if study else [])])
         answer = answered(asked, caller)
     finish(answer, files, as_json, caller.read)
 

@@ -39,4 +39,4 @@ def study_command(
         study = read_study(file)
         files = {output: study.write.get(output.name) for output in study.request.outputs}
         files = checked(files, force=force, as_json=as_json)
-        carry_out(study.request, files, own or (), as_json=as_json, folder=file.parent)
+        carry_out(study.request, files, own or (), as_json=as_json, study=file)

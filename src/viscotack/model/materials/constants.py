@@ -74,10 +74,6 @@ ModulusRatio = Annotated[
     float,
     Quantity("1", "k", "rubbery over glassy modulus", above=0, most=1, example="0.1"),
 ]
-ContactModulus = Annotated[
-    float,
-    Quantity("Pa", "E0*", "relaxed contact modulus, E0/(1 - nu^2)", above=0, example="1.94 MPa"),
-]
 
 
 def poisson_ratio(value: Any) -> float:
