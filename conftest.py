@@ -8,6 +8,9 @@ from _pytest.doctest import DoctestItem
 
 from docs import example_imports
 
+# Settings of the manuscript, which read the numbers that are made for it.
+collect_ignore = ["research/paper/conf.py"]
+
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call(item):
