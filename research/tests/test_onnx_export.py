@@ -8,7 +8,6 @@ runtime = pytest.importorskip("onnxruntime", reason="pip install onnxruntime")
 
 from research.onnx_export.file import export, outputs  # noqa: E402
 from viscotack.prediction.surrogate import physics  # noqa: E402
-from viscotack.prediction.surrogate.moving import moved  # noqa: E402
 from viscotack.prediction.surrogate.store import shipped  # noqa: E402
 
 LOW, HIGH = np.array(list(physics.LIMITS.values())).T
@@ -56,11 +55,3 @@ def test_same_digits_inside_the_ranges_at_their_ends_and_beyond(tmp_path):
     assert 0.02 < np.mean(surrogate.tests(drawn(1000)).start[0] > 0) < 0.98
     for groups in (drawn(1000), corners, drawn(500, beyond=0.5)):
         assert_same_digits(exported, surrogate, groups)
-
-
-def test_a_surrogate_moved_by_measured_forces_has_the_same_digits_too(tmp_path):
-    points = drawn(6)
-    force = 1.2 * shipped().evaluate(points).pull_off_force
-    columns = dict(zip([*physics.INPUTS, "pull_off_force"], [*points.T, force], strict=True))
-    lab = moved(shipped(), columns, error=0.02)
-    assert_same_digits(session(lab, tmp_path), lab, drawn(100))

@@ -59,9 +59,7 @@ def predict(
     exact : bool
         Whether to simulate regardless of the time: the result of :func:`viscotack.solve`.
     model : Surrogate, optional
-        A surrogate to use alone in place of the tiers, such as one moved to the measured forces of
-        a lab by :func:`.surrogate.moving.moved`; the coverage of its intervals was not
-        measured then.
+        A surrogate to use alone in place of the tiers.
     passport : Passport, optional
         Passport of the material at the temperature of the problem, for
         :attr:`Prediction.cautions`; it does not change the numbers.

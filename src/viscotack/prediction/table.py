@@ -17,7 +17,7 @@ from viscotack.prediction.surrogate.trust import check_confidence
 from .learned import not_certain
 from .power_laws import SURROGATE
 from .predict import predict
-from .prediction import MEASURED, NOT_MEASURED
+from .prediction import MEASURED
 from .punches import LEARNED_PUNCH
 
 if TYPE_CHECKING:
@@ -121,8 +121,7 @@ def predict_table(
     if model is not None and model.contact.name != kind.name:
         raise InputError(f"model is of {model.contact.name!r}, the columns are of {kind.name!r}")
     learned, force = model or store.shipped(kind.name), FORCE[kind.name]
-    moved = learned.move is not None
-    method, count = METHOD[kind.name] + ", moved" * moved, len(next(iter(given.values())))
+    method, count = METHOD[kind.name], len(next(iter(given.values())))
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
@@ -149,7 +148,7 @@ def predict_table(
         ]
         sure = at[certain[:, 0]]
         table["method"][sure], table["inside"][sure] = method, True
-        table["band"][sure] = NOT_MEASURED if moved else MEASURED
+        table["band"][sure] = MEASURED
 
     done, others = len(at), np.setdiff1d(np.arange(count), at)
     for case, at in _equal_rows(given, others).items():

@@ -9,7 +9,6 @@ the interval, and the name of the tier.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
@@ -18,7 +17,7 @@ from viscotack.model.materials import Elastic, RetardationPowerLaw
 from . import learned_crack, power_laws, punches, solids, steady_crack
 from .learned_crack import LEARNED_CRACK, by_learned_crack
 from .power_laws import SURROGATE, by_power_laws
-from .prediction import NOT_MEASURED, Prediction
+from .prediction import Prediction
 from .punches import LEARNED_PUNCH, by_punches
 from .simulation import SIMULATION, by_simulation
 from .solids import SOLIDS, by_solids
@@ -65,17 +64,7 @@ def by_model(asked: Question) -> Prediction:
     name = asked.model.contact.name
     if name not in _OF_MODEL:
         raise InputError(f"model must be a surrogate of spheres or punches, got one of {name!r}")
-    found = _OF_MODEL[name].ask(asked)
-    if asked.model.move is None:
-        return found
-    count = len(asked.model.move.points)
-    return replace(
-        found,
-        method=f"{found.method}, moved",
-        why=f"{found.why}; moved by {count} measured force{'s' * (count > 1)}",
-        confidence=None,
-        band=NOT_MEASURED,
-    )
+    return _OF_MODEL[name].ask(asked)
 
 
 def best(asked: Question, budget: float) -> Prediction:

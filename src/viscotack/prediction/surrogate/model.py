@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -20,9 +20,6 @@ from .contact import LEAST_WAY, Contact, between, mean_limit
 from .line import Curves
 from .network import Networks
 from .trust import Answers, Intervals, Trust
-
-if TYPE_CHECKING:
-    from .moving import Move
 
 # Step of the logarithm of an input in differences, where rounding and curvature balance.
 _STEP = 3e-4
@@ -42,8 +39,6 @@ class Surrogate:
         Widths of the intervals; None if they were not measured.
     constants : mapping of str to ndarray
         Further fitted numbers of the contact.
-    move : Move or None
-        Correction by the measured forces of a lab (:func:`.moving.moved`).
 
     Notes
     -----
@@ -56,7 +51,6 @@ class Surrogate:
     networks: Mapping[str, Networks]
     trust: Trust | None = None
     constants: Mapping[str, Array] = field(default_factory=dict)
-    move: Move | None = None
 
     def tests(self, given: Any) -> Contact:
         """Return the tests, whose limits and starts are computed once for all methods."""
@@ -122,7 +116,7 @@ class Surrogate:
             if further.work is not None:
                 works = works + further.work
             work, work_spread = 10 ** works.mean(axis=0), works.std(axis=0)
-        answers = Answers(
+        return Answers(
             pull_off_force=10**force,
             work_to_pull_off=work,
             force_spread=forces.std(axis=0),
@@ -131,15 +125,10 @@ class Surrogate:
             share=(force - slow) / way,
             more=further.more,
         )
-        return answers if self.move is None else answers.times(self.move.factor(tests.scaled))
 
     def curves(self, given: Any, answers: Answers) -> Curves:
         """Return the unloading curves of the predictions of the same tests."""
-        found = self.tests(given).curves(answers.learned)
-        if answers.factor is None:
-            return found
-        force = np.where(found.force < 0, found.force * answers.factor[:, None], found.force)
-        return replace(found, force=force)
+        return self.tests(given).curves(answers)
 
     def intervals(
         self, given: Any, answers: Answers, *, confidence: float = 0.9, joint: bool = False
@@ -152,21 +141,11 @@ class Surrogate:
         ------
         ValueError
             If the coverage was not measured for this confidence.
-
-        Notes
-        -----
-        Those of a moved surrogate add the uncertainty of the move. Their coverage depends on the
-        lab, so that it cannot be measured beforehand; they are never joint.
         """
         if self.trust is None:
             raise InputError(f"no intervals were measured for a {self.contact.name}")
         tests = self.tests(given)
-        told = tests.told_of_errors(answers.learned)
-        if self.move is not None:
-            if joint:
-                raise InputError("no joint intervals were measured for a moved surrogate")
-            found = self.trust.intervals(told, answers, confidence)
-            return _with_move(found, answers, self.move.unknown(tests.scaled, confidence))
+        told = tests.told_of_errors(answers)
         found = self.trust.intervals(told, answers, confidence, joint=joint)
         if tests.least is None:
             return found
@@ -182,7 +161,7 @@ class Surrogate:
         """
         if self.trust is None or "second" not in self.networks:
             return np.column_stack([answers.pull_off_force] * 2) < 0  # none, also in an export
-        return self.trust.doubtful(self.tests(given).told_of_errors(answers.learned))
+        return self.trust.doubtful(self.tests(given).told_of_errors(answers))
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
         """Return the derivatives of log force and log work by the logarithms of the inputs.
@@ -312,23 +291,6 @@ class Surrogate:
             pull_off_force=wider("pull_off_force"),
             work_to_pull_off=wider("work_to_pull_off"),
         )
-
-
-def _with_move(held: Intervals, answers: Answers, far: Array) -> Intervals:
-    """Add half widths [log10] of a move in quadrature to intervals."""
-
-    def wider(value: Array, pair: Array) -> Array:
-        half = np.log10(pair[:, 1] / value)
-        factor = 10 ** np.sqrt(half * half + far * far)
-        return np.column_stack([value / factor, value * factor])
-
-    part = 10**far - 1
-    return replace(
-        held,
-        pull_off_force=wider(answers.pull_off_force, held.pull_off_force),
-        work_to_pull_off=wider(answers.work_to_pull_off, held.work_to_pull_off),
-        curve=np.sqrt(held.curve * held.curve + part * part),
-    )
 
 
 def _start_doubt(tests: Contact, *, by: str, step: float = 1e-3) -> Array:

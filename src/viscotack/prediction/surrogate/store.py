@@ -65,8 +65,6 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str,
     facts : mapping
         Metadata on training and validation, in JSON types.
     """
-    if surrogate.move is not None:
-        raise InputError("a moved surrogate has no file; keep its points and move it again")
     contact, trust = surrogate.contact, surrogate.trust
     own = [name for name in surrogate.networks if name not in contact.shared]
     arrays: dict[str, Any] = {**surrogate.constants, **_arrays(surrogate.networks, own)}

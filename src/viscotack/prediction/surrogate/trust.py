@@ -10,7 +10,7 @@ the interval includes the desired fraction of cases outside the training data.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -37,8 +37,6 @@ class Answers:
         log10 of the fast over the slow limit of the force, and the fraction of it that is reached.
     more : mapping of str to ndarray
         Further outputs of the contact (:meth:`.contact.Contact.further`).
-    factor : ndarray, or None
-        By which measured forces moved force and work (:mod:`.moving`); None without these.
     """
 
     pull_off_force: Array
@@ -48,17 +46,6 @@ class Answers:
     way: Array
     share: Array
     more: Mapping[str, Array] = field(default_factory=dict)
-    factor: Array | None = None
-
-    def times(self, factor: Array) -> Answers:
-        """Return the predictions moved by a factor."""
-        force, work = self.pull_off_force * factor, self.work_to_pull_off * factor
-        return replace(self, pull_off_force=force, work_to_pull_off=work, factor=factor)
-
-    @property
-    def learned(self) -> Answers:
-        """The predictions as the networks learned them."""
-        return self if self.factor is None else replace(self.times(1 / self.factor), factor=None)
 
 
 @dataclass(frozen=True, eq=False)
