@@ -32,6 +32,7 @@ def source(folder, *, drawn=True):
         (tables / f"{name}.md").write_text(lines, encoding="utf-8")
     if drawn:
         figures.write(folder / "figures")
+        shutil.copy(numbers.MEASURED / "comparison.png", folder / "figures" / "measured.png")
     for name in ("conf.py", "manuscript.md"):
         shutil.copy(HERE / name, folder / name)
 

@@ -3,6 +3,7 @@
 A kept number that a quick computation contradicts ends the build (:class:`Stale`).
 """
 
+import csv
 import json
 from functools import cache
 from pathlib import Path
@@ -19,6 +20,7 @@ from .range_cases import groups_of
 
 HERE = Path(__file__).parent
 AGREEMENT = HERE.parent / "replication" / "second_code" / "agreement.json"
+MEASURED = HERE.parent / "measured_series"
 WORK_BOUND = HERE.parent / "replication" / "kept" / "work-bound.json"
 OPENING = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 COMPARED = 10.0 ** np.arange(-2, 3.01, 0.25)
@@ -149,6 +151,33 @@ def factors(cut=1.0):
     }
 
 
+def measured():
+    """Return the rows of the measured series beside its predictions."""
+    lines = [
+        "| silicone, speed | force | measured | matched spectra | published spectrum | no loss |",
+        "|---" * 6 + "|",
+    ]
+    with (MEASURED / "comparison.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for name, word in (("pull_off", "pull-off"), ("jump_in", "jump-in")):
+        for row in rows:
+            of = {key: float(row[f"{name}_{key}"]) for key in _RATIOS}
+            bands = (
+                f"{of[f'{kind}_low']:.3f} to {of[f'{kind}_high']:.3f}"
+                for kind in ("matched", "published")
+            )
+            lines.append(
+                f"| {row['solid']}, {row['protocol']}, {float(row['speed_nm_per_s']):.3g} nm/s "
+                f"| {word} | {of['ratio']:.3f} ± {of['error']:.3f} | {' | '.join(bands)} "
+                f"| {of['no_loss']:.3f} |"
+            )
+    return lines
+
+
+_RATIOS = ("ratio", "error", "matched_low", "matched_high", "published_low", "published_high")
+_RATIOS += ("no_loss",)
+
+
 def _percent(x, digits=1):
     return f"{100 * x:.{digits}f} %"
 
@@ -263,6 +292,7 @@ def tables():
             f"| {_signed(row['contact_off'], 2)} |"
         )
     found["marched"] = lines
+    found["measured"] = measured()
     return {name: "\n".join(lines) + "\n" for name, lines in found.items()}
 
 
