@@ -13,13 +13,14 @@ In between, under a shape without details, the edge is a steady crack that reced
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.model.geometry import Disc, HalfSpace, Layer, detail
+from viscotack.model.geometry import Base, Disc, HalfSpace, Layer, detail
 from viscotack.model.problem import Groups
 from viscotack.theory import SteadyCrack, film
 from viscotack.theory.crack.contact import profile_on, recede
@@ -209,7 +210,13 @@ def _thicknesses(groups: Groups) -> tuple[float, ...] | None:
     sharp = isinstance(shape, Disc) and shape.is_sharp
     if not isinstance(body, Layer) or not (sharp or np.isinf(detail(shape))):
         return None
-    case = {"shape": shape, "base": body.base, **_UNITS}
+    return _thicknesses_of(shape, body.base)
+
+
+# most of the time of an advice, and the same for all problems with this shape and base
+@lru_cache(maxsize=64)
+def _thicknesses_of(shape: Any, base: Base) -> tuple[float, ...]:
+    case = {"shape": shape, "base": base, **_UNITS}
     return tuple(film.half_space_thickness(tolerance=x, **case) for x in TOLERANCES)
 
 
