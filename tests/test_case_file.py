@@ -106,29 +106,37 @@ def test_every_start_can_be_written(line, start, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "field"),
     [
-        ("[material", "TOML"),
         (edited("[sphere]", "[ball]"), "ball"),
-        (edited('"5.19 mm"', "5.19"), r"\[sphere\] radius"),
-        (edited('"5.19 mm"', '"5.19 Pa"'), r"\[sphere\] radius"),
-        (edited('"3089 MPa"', '"3089 Pa"'), r"\[material\] glassy_modulus"),
-        (edited('preload_force = "1.5 mN"', ""), r"\[protocol\] .*preload_depth"),
-        (with_material(f'model = "elastic"\n{BASE}exponent = 0.5'), r"\[material\].*exponent"),
-        (edited('"5.19 mm"', "true"), r"\[sphere\] radius must be text"),
-        (
-            edited('"100 um/s"', '"1 um/s"\nmoves = "dwell 1 s"'),
-            r"\[protocol\] moves must be a list",
-        ),
-        (edited('"100 um/s"', '"1 um/s"\ncycles = true'), r"\[protocol\] cycles must be a whole"),
-        (edited("[protocol]", '[layer]\nthickness = "1 mm"\n[protocol]'), r"\[layer\] base"),
-        (edited('equilibrium_gap = "1.55 um"', 'strength = "-1 MPa"'), r"\[interface\] strength"),
+        (edited('"5.19 mm"', "5.19"), "sphere.radius"),
+        (edited('"5.19 mm"', '"5.19 Pa"'), "sphere.radius"),
+        (edited('"5.19 mm"', "true"), "sphere.radius"),
+        (edited('"5.19 mm"', '"1 km"'), "sphere.radius"),
+        (edited("radius", "radiuss"), "sphere.radiuss"),
+        (edited('"power-law"', '"rubber"'), "material.model"),
+        (edited('"3089 MPa"', '"3089 Pa"'), "material"),
+        (with_material(f'model = "elastic"\n{BASE}exponent = 0.5'), "material.exponent"),
+        (edited('preload_force = "1.5 mN"', ""), "protocol"),
+        (edited('speed = "100 um/s"', ""), "protocol.speed"),
+        (edited('"100 um/s"', '"1 um/s"\nmoves = "dwell 1 s"'), "protocol.moves"),
+        (edited('"100 um/s"', '"1 um/s"\nmoves = ["dwell -1 s"]'), "protocol"),
+        (edited('"100 um/s"', '"1 um/s"\ncycles = true'), "protocol.cycles"),
+        (edited("[protocol]", '[layer]\nthickness = "1 mm"\n[protocol]'), "layer.base"),
+        (edited('equilibrium_gap = "1.55 um"', 'strength = "-1 MPa"'), "interface.strength"),
+        (edited("[interface]", '[interface]\nstrength = "1 MPa"'), "interface.strength"),
     ],
 )
-def test_a_wrong_case_is_refused_with_table_and_key(text, words, tmp_path):
-    with pytest.raises(ValueError, match=words) as caught:
+def test_a_wrong_case_is_refused_with_its_field(text, field, tmp_path):
+    with pytest.raises(InputError, match=re.escape("case.toml")) as caught:
         read_case(written(tmp_path, text))
-    assert "case.toml" in str(caught.value)
+    assert caught.value.field == field
+    assert all(part in str(caught.value) for part in field.split("."))
+
+
+def test_a_file_that_is_no_toml_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"case\.toml.*TOML"):
+        read_case(written(tmp_path, "[material"))
 
 
 @pytest.mark.parametrize(
@@ -191,7 +199,6 @@ def test_tables_that_were_sent_name_no_file(table, replaced):
 @pytest.mark.parametrize(
     ("more", "name"),
     [
-        ({"radius": "1 km"}, r"\[sphere\] radius"),
         ({"protocol": 'preload_depth = "1 um"\nspeed = "1e30 m/s"'}, r"\[protocol\] speed"),
         (
             {"protocol": 'start = "force 1e20 N"\nmoves = ["retract 1 um/s to depth 0 um"]'},

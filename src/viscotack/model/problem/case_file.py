@@ -205,7 +205,9 @@ def problem_of(
     plain = shape != "surface" and nouns.shapes[shape].symmetry == "plane"
     bodies = [name for name in tables if name in nouns.bodies] or ([Layer.word] if plain else [])
     if len(bodies) > 1:
-        raise InputError(f"{where}: only one body is allowed, got [{'] and ['.join(bodies)}]")
+        raise InputError(
+            f"{where}: only one body is allowed, got [{'] and ['.join(bodies)}]", field=bodies[1]
+        )
     names = ("material", "interface", test, shape, *bodies)
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
     refuse_unknown(where, tables, names, "table", more)
@@ -234,7 +236,7 @@ def problem_of(
     except ValueError as error:
         if isinstance(error, InputError) and str(error).startswith(where):
             raise
-        raise InputError(f"{where}: {error}") from None
+        raise InputError(f"{where}: {error}", field=getattr(error, "field", "")) from None
 
 
 def tables_of(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
@@ -263,7 +265,9 @@ def _indenter(tables: Tables, known: Mapping[str, Any], where: str) -> str:
     """Return the name of the table that states the indenter."""
     given = [name for name in tables if name in known]
     if len(given) > 1:
-        raise InputError(f"{where}: only one indenter is allowed, got [{'] and ['.join(given)}]")
+        raise InputError(
+            f"{where}: only one indenter is allowed, got [{'] and ['.join(given)}]", field=given[1]
+        )
     return given[0] if given else FlatPunch.word if Layer.word in tables else Sphere.word
 
 

@@ -23,7 +23,10 @@ def law_from_table(given: Any, reading: Reading) -> Traction:
     rest as ``base``, and the constants of both.
     """
     if not isinstance(given, Mapping):
-        raise InputError(f"{reading.where}: the table [interface] is missing; see docs/input.md")
+        raise InputError(
+            f"{reading.where}: the table [interface] is missing; see docs/input.md",
+            field="interface",
+        )
     kind = reading.choice(given, "interface", "law", reading.nouns.laws, OWN)
     table: dict[str, Any] = {key: value for key, value in given.items() if key != "law"}
     if reading.pure:
@@ -54,7 +57,8 @@ def _of_gap(kind: Any, table: Mapping[str, Any], reading: Reading) -> Traction:
     if "equilibrium_gap" in table:
         raise InputError(
             f"{reading.where}, [interface] strength and equilibrium_gap determine each other; "
-            "give only one"
+            "give only one",
+            field="interface.strength",
         )
     table = dict(table)
     strength = reading.key("interface", "strength", STRENGTH, table.pop("strength"))

@@ -95,7 +95,10 @@ def protocol_from_table(given: Any, reading: Reading, equilibrium_gap: float) ->
     if table.history is not None:
         for key in (*STARTS["N"], *STARTS["Pa"], "start", "moves"):
             if getattr(table, key):
-                raise InputError(f"{where} history states the start and the moves; omit {key}")
+                raise InputError(
+                    f"{where} history states the start and the moves; omit {key}",
+                    field=f"protocol.{key}",
+                )
         file = reading.file("protocol", "history", table.history)
         history = history_from_file(file, equilibrium_gap)
     try:
@@ -107,12 +110,15 @@ def protocol_from_table(given: Any, reading: Reading, equilibrium_gap: float) ->
             moves = tuple(move_from_words(move, reading.units) for move in table.moves)
         check_number_of_moves(table.cycles * len(moves))
         if table.speed is None and not moves:
-            raise InputError('speed is missing; write for example speed = "100 um/s"')
+            raise InputError(
+                'speed is missing; write for example speed = "100 um/s"', field="protocol.speed"
+            )
         return Retraction(
             start=start, speed=table.speed, moves=moves * table.cycles, stiffness=table.stiffness
         )
     except ValueError as error:
-        raise InputError(f"{where} {error}") from None
+        field = getattr(error, "field", "") or "protocol"
+        raise InputError(f"{where} {error}", field=field) from None
 
 
 def _start(table: ProtocolTable, units: Mapping[str, str]) -> Start | Apart:
@@ -152,13 +158,14 @@ def test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
     if len(starts) != 1:
         raise InputError(
             f"{where} needs exactly one of {', '.join(STARTS_IN_GROUPS)}, got "
-            f"{' and '.join(starts) or 'none'}"
+            f"{' and '.join(starts) or 'none'}",
+            field="groups",
         )
     try:
         moves = tuple(move_from_words(move, PURE_NUMBERS) for move in table.moves)
         start = STARTS_IN_GROUPS[starts[0]](getattr(table, starts[0]))
     except ValueError as error:
-        raise InputError(f"{where} {error}") from None
+        raise InputError(f"{where} {error}", field="groups") from None
     return {
         "tabor": table.tabor,
         "cohesion": table.cohesion,

@@ -147,7 +147,8 @@ class Reading:
         if not isinstance(given, str) or given not in known:
             got = f"got {given!r:.60}" if key in table else "it is missing"
             raise UnknownNoun(
-                f"{self.where}, [{name}] {key} must be one of {', '.join(known)}; {got}{hint}"
+                f"{self.where}, [{name}] {key} must be one of {', '.join(known)}; {got}{hint}",
+                field=f"{name}.{key}",
             )
         return known[given]
 
@@ -200,15 +201,15 @@ def read_as(kind: type[T], table: Any, reading: Reading, name: str) -> T:
     where = f"{reading.where}, [{name}]"
     if not isinstance(table, Mapping):
         raise InputError(f"{reading.where}: the table [{name}] is missing; see docs/input.md")
-    refuse_unknown(where, table, (f.name for f in fields(kind) if f.init), "key")  # type: ignore[arg-type]
+    refuse_unknown(where, table, (f.name for f in fields(kind) if f.init), "key", table=name)  # type: ignore[arg-type]
     try:
         return adapter(kind).validate_python(dict(table), context=reading)
     except ValidationError as error:
         loc = error.errors()[0]["loc"]
-        at = f"{name}.{loc[0]}" if loc else ""
+        at = f"{name}.{loc[0]}" if loc else name
         raise InputError(f"{where} {_words(kind, error, reading)}", field=at) from None
     except ArithmeticError as error:
-        raise InputError(f"{where}: {error}") from None
+        raise InputError(f"{where}: {error}", field=name) from None
 
 
 def _words(kind: Any, error: "ValidationError", reading: Reading) -> str:
@@ -247,9 +248,15 @@ def _example(kind: Any, name: str, reading: Reading) -> str:
 
 
 def refuse_unknown(
-    where: str, given: Iterable[str], known: Iterable[str], what: str, more: str = ""
+    where: str,
+    given: Iterable[str],
+    known: Iterable[str],
+    what: str,
+    more: str = "",
+    *,
+    table: str = "",
 ) -> None:
-    """Raise an error for unknown names, with a suggestion."""
+    """Raise an error for unknown names of tables, or of keys of a table, with a suggestion."""
     known = sorted(known)
     for name in given:
         if name not in known:
@@ -257,12 +264,14 @@ def refuse_unknown(
                 command, noun = _ELSEWHERE[name]
                 raise UnknownNoun(
                     f"{where}: unknown table {name!r}: it states {noun}, in a file of "
-                    f"`viscotack {command}`; expected {', '.join(known)}"
+                    f"`viscotack {command}`; expected {', '.join(known)}",
+                    field=name,
                 )
             close = difflib.get_close_matches(str(name), known, n=1)
             hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}{more}"
             kind = UnknownNoun if what == "table" else InputError
-            raise kind(f"{where}: unknown {what} {name!r}; {hint}")
+            field = f"{table}.{name}" if table else name
+            raise kind(f"{where}: unknown {what} {name!r}; {hint}", field=field)
 
 
 def refuse_named(where: str, tables: Mapping[str, Any], words: Iterable[str], why: str) -> None:
