@@ -9,14 +9,27 @@ from scipy.stats import t as student
 
 import tack_files
 import viscotack as vt
+from rate_tests import GAP, LENS, PRELOAD, RADIUS, RUBBER, WORK, holds
 from viscotack.app.operations import ask
 from viscotack.errors import InputError
-from viscotack.identify import identify_dwell
+from viscotack.identify import (
+    PullOff,
+    RateSeries,
+    contact_time,
+    forecast_edge,
+    forecast_rates,
+    identify_dwell,
+    identify_edge,
+    identify_rates,
+    pull_offs,
+)
 from viscotack.identify.contact_time import check_relaxed
-from viscotack.theory import jkr
+from viscotack.identify.forward import Forward
+from viscotack.lab.tack import Measured, survey
+from viscotack.theory import edge_law, jkr
 
 TIMES = np.repeat([1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0], 2)
-RUBBER = """[material]
+TABLE = """[material]
 model = "elastic"
 rubbery_modulus = "0.75 MPa"
 poisson_ratio = 0.5
@@ -117,7 +130,7 @@ def files(tmp_path, monkeypatch):
 
 
 def test_files_of_several_dwells_give_the_growth(files):
-    answer = ask("identify dwell", files=files, material=RUBBER, radius="5 mm")
+    answer = ask("identify dwell", files=files, material=TABLE, radius="5 mm")
     record = answer.record()
     middle = 0.1 * (1 + 0.1 * np.log1p(np.exp(np.log(record["times_s"]).mean()) / 0.01))
     assert record["work_of_adhesion_J_m2"] == pytest.approx(middle, rel=0.01)
@@ -127,6 +140,143 @@ def test_files_of_several_dwells_give_the_growth(files):
     assert answer.pictures["plot"]().axes[0].get_xscale() == "log"
 
 
-def test_a_rate_series_with_growing_forces_of_several_dwells_is_refused(files):
-    with pytest.raises(InputError, match="these tests are no repeats"):
-        ask("identify rates", files=files, material=RUBBER, radius="5 mm")
+def of_design(speeds, times, work, noise=0.015, seed=0, own=1e-3):
+    """Return pull-offs of an edge law, evaluated as those of files, one test a speed and time."""
+    (cycle,) = survey([LENS[1]]).cycles
+    scatter = 1 + noise * np.random.default_rng(seed).standard_normal(len(speeds))
+    forces = scatter * edge_law.pull_off_force(speeds, work_of_adhesion=work, **EDGE)
+    first = np.arange(cycle.time.size) > cycle.segments.dwell
+    return pull_offs(
+        [
+            replace(
+                cycle,
+                speed=Measured(float(v), 0.0),
+                time=cycle.time + np.where(first, t - contact_time.contact_time(cycle), 0.0),
+                pull_off_force=Measured(float(F), own * float(F)),
+            )
+            for v, t, F in zip(speeds, times, forces, strict=True)
+        ]
+    )
+
+
+def edge_fit(tests):
+    case = {"radius": EDGE["radius"], "preload": EDGE["preload"], "theory": 0.002}
+    return identify_edge(RateSeries(tests, material=SOLID, **case))
+
+
+EDGE = {"radius": 5e-3, "contact_modulus": 2e6, "preload": 2e-3}
+EDGE |= {"reference_speed": 5e-5, "exponent": 0.4}
+SOLID = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
+FOUR, DWELLS = np.geomspace(1e-6, 1e-3, 4), np.array([10.0, 100.0, 1000.0])
+V, T = (x.ravel() for x in np.meshgrid(FOUR, DWELLS, indexing="ij"))
+
+
+@pytest.mark.parametrize("growth", [0.06, 0.0])
+def test_speeds_and_dwells_together_give_edge_law_and_growth_in_time(growth):
+    fit = edge_fit(of_design(V, T, 0.06 * (1 + growth * np.log10(T / 100)), seed=1))
+    truth = {"work_of_adhesion": 0.06, "reference_speed": 5e-5, "exponent": 0.4}
+    for name, value in (truth | {"growth_per_decade": growth}).items():
+        assert fit.intervals[name].low < value < fit.intervals[name].high
+    ends = fit.intervals["growth_per_decade"]
+    # a slope of 12 tests over two decades, with their scatter of 1.5 %
+    assert 0.5 < (ends.high - ends.low) / (2 * 1.645 * 0.015 / np.sqrt(8)) < 2
+    assert (fit.ageing.chance < 1e-4) == bool(growth)
+    assert fit.given.middle_time == pytest.approx(100) and not fit.ageing.together
+    assert fit.describes_tests and not fit.unexplained
+    forecast = forecast_edge(fit, [3e-5])
+    assert holds(forecast, edge_law.pull_off_force([3e-5], work_of_adhesion=0.06, **EDGE))
+    assert forecast.contact_time == pytest.approx([100])
+
+
+def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_dwell():
+    speeds, times = (x.ravel() for x in np.meshgrid([1e-6, 3e-5, 1e-3], DWELLS, indexing="ij"))
+
+    def pulled(speeds, times):
+        work = WORK * (1 + 0.06 * np.log10(np.asarray(times) / 100))
+        return Forward(RUBBER, RADIUS).pulled(work, GAP, speeds, PRELOAD).force
+
+    noise = 1 + 0.015 * np.random.default_rng(2).standard_normal(9)
+    rows = zip(speeds, pulled(speeds, times) * noise, times, strict=True)
+    tests = [PullOff(v, Measured(F, 0.015 * F), contact_time=t) for v, F, t in rows]
+    case = {"material": RUBBER, "radius": RADIUS, "preload": PRELOAD, "theory": 0.002}
+    fit = identify_rates(RateSeries(tests, **case))
+    for name, value in (
+        ("work_of_adhesion", WORK),
+        ("equilibrium_gap", GAP),
+        ("growth_per_decade", 0.06),
+    ):
+        assert fit.intervals[name].low < value < fit.intervals[name].high
+    speed = np.array([1e-4])
+    assert holds(forecast_rates(fit, speed), pulled(speed, [100.0]))
+    later = forecast_rates(fit, speed, dwell=1e4, approach_speed=1e-4)
+    assert later.contact_time == pytest.approx([1e4], rel=1e-3)
+    assert holds(later, pulled(speed, [1e4])) and later.low > pulled(speed, [300.0])
+
+
+def test_where_the_dwell_goes_with_the_speed_their_effects_are_not_separate():
+    speeds = np.geomspace(1e-6, 1e-3, 5)
+    times = 1 + 1e-3 / speeds
+    tests = of_design(speeds, times, 0.06)
+    alone = edge_fit(tests)
+    assert alone.given.confounded and alone.ageing is None
+    unknown = edge_fit([replace(one, contact_time=None) for one in tests])
+    assert not unknown.given.confounded and alone.best == unknown.best
+    # one more dwell at the slowest speed separates them a little
+    speeds, times = np.append(speeds, 1e-6), np.append(times, 400.0)
+    more = edge_fit(of_design(speeds, times, 0.06, own=0.015))
+    assert not more.given.confounded and more.ageing.together == ("exponent",)
+
+
+def test_tests_that_one_interface_does_not_explain_are_named():
+    work = 0.06 * (1 + 0.06 * np.log10(T / 100))
+    one = work * np.where((V == FOUR[1]) & (T == 100), 1.2, 1)
+    fit = edge_fit(of_design(V, T, one, noise=0.0, own=0.01))
+    assert [(fit.series[i].speed, fit.series[i].contact_time) for i in fit.unexplained] == [
+        pytest.approx((FOUR[1], 100))
+    ]
+
+
+def test_a_series_of_several_dwells_needs_a_relaxed_solid():
+    solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e6, tau0=2.0, poisson_ratio=0.5)
+    tests = [
+        PullOff(v, Measured(4e-3, 1e-5), 1e-3, contact_time=t) for v in (1e-6, 1e-5) for t in (1, 9)
+    ]
+    with pytest.raises(InputError, match="relaxes"):
+        RateSeries(tests, material=solid, radius=5e-3)
+    RateSeries(tests[::2], material=solid, radius=5e-3)
+
+
+def test_without_an_approach_the_time_in_contact_is_unknown():
+    (cycle,) = survey([LENS[1]]).cycles
+    bare = replace(cycle, segments=replace(cycle.segments, begin=cycle.segments.dwell))
+    assert contact_time.contact_time(cycle) == pytest.approx(60.4, rel=1e-3)
+    assert contact_time.contact_time(bare) is None
+    with pytest.raises(InputError, match="approach"):
+        contact_time.tests_by_dwell([bare])
+
+
+def test_files_of_several_speeds_and_dwells_give_a_study_whose_forecast_states_its_time(files):
+    names = []
+    for speed in (1, 2, 4, 8):
+        for number in (0, 4):
+            rows = Path(files[number]).read_text().splitlines()
+            head, *rows = rows
+            table = np.array([[float(x) for x in row.split(",")] for row in rows])
+            back = np.argmax(np.diff(table[:, 1]) < 0)
+            step = np.diff(table[:, 0], prepend=table[0, 0])
+            step[back + 1 :] /= speed
+            table[:, 0] = np.cumsum(step)
+            table[:, 2] *= np.where(table[:, 2] < 0, 1 + 0.1 * np.log(speed), 1)
+            names.append(f"{speed}_{number}.csv")
+            np.savetxt(names[-1], table, delimiter=",", header=head, comments="")
+    about = {"radius": "5 mm", "contact_modulus": "1 MPa", "preload": "2 mN"}
+    answer = ask("identify edge", files=names, **about)
+    answer.files["output"]("edge.toml")
+    found = answer.record()
+    middle = 0.1 * (1 + 0.1 * np.log(found["ageing"]["middle_time_s"] / 0.01))
+    grown = found["ageing"]["growth_per_decade"]
+    # forces of these files are proportional to the work, those of an edge law nearly so
+    assert grown == pytest.approx(0.01 * np.log(10) / middle, rel=0.1)
+    assert found["ageing"]["separate"] and len(found["series"]) == 8
+    forecast = ask("forecast", study="edge.toml", speed=["50 um/s"]).record()["forecast"]
+    assert forecast[0]["contact_time_s"] == pytest.approx(found["ageing"]["middle_time_s"])

@@ -1,4 +1,4 @@
-r"""Growth of the work of adhesion with contact time, from tests at one speed after several dwells.
+r"""Growth of the work of adhesion with contact time, from tests after several dwells.
 
 The pull-off force of an elastic sphere with forces of short range is :math:`1.5 \pi R w` (JKR), so
 the force after a time t in contact is that of a new one times :math:`1 + G(t)`. Two laws of
@@ -12,6 +12,11 @@ grow by 6 % less in a decade than their interface does (`tests/test_identify_dwe
 
 The time in contact is that from the start of the dwell to the pull-off. Bulk relaxation in the
 dwell changes the force too; :func:`check_relaxed` refuses solids for which it may.
+
+In tests at several speeds the growth is one more unknown of the rate series (:mod:`.search`): the
+work of adhesion of a test is :math:`w (1 + g \log_{10}(t/t_m))`, with the geometric mean
+:math:`t_m` of the times. It is fitted where times differ at one speed. Where each speed has its own
+time, the effects of both are one, and tests of that design determine no growth.
 """
 
 from __future__ import annotations
@@ -38,14 +43,14 @@ _FEWEST, _DWELLS, _RANGE = 4, 3, 5.0
 _BEYOND, _PER_DECADE = 2, 20
 # Probability below which a growth is not chance.
 _CHANCE = 0.01
-# ... and that above which tests of one speed count as repeats, so that few series are refused by
-# chance.
-_CERTAIN = 1e-3
-# Ratio of dwells above which tests at one speed are no repeats, and change of the modulus in the
-# dwells that may be neglected.
-_APART, _LEFT = 2.0, 0.02
+# Ratio of times from which tests at one speed are no repeats, that up to which times are equal, and
+# change of the modulus between the dwells that may be neglected.
+APART, _SAME, _LEFT = 2.0, 1.25, 0.02
 # Dwell times of an undetermined law begin at this multiple of its reference time.
 _ABOVE = 10.0
+# The unknown of a series of several speeds, and its correlation with another unknown from which the
+# data hardly separate them.
+PER_DECADE, _TOGETHER = "growth_per_decade", 0.9
 # Laws, the names of their amplitudes, and their growth by t/t0.
 _SHAPES: dict[Any, tuple[str, Callable[[Array], Array]]] = {
     LogarithmicAgeing: ("sensitivity", np.log1p),
@@ -180,22 +185,55 @@ class DwellFit:
         )
 
 
+@dataclass(frozen=True)
+class FoundAgeing:
+    """Growth with contact time that was fitted to a rate series.
+
+    Attributes
+    ----------
+    better_by : float
+        Reduction of the misfit compared with the best interface without this growth.
+    correlation : dict of str to float
+        Correlation of the growth with each other unknown.
+    """
+
+    better_by: float
+    correlation: dict[str, float]
+
+    @property
+    def chance(self) -> float:
+        """Probability of such a reduction of the misfit for an interface without this growth."""
+        return float(scipy.stats.chi2.sf(self.better_by, 1))
+
+    @property
+    def together(self) -> tuple[str, ...]:
+        """Unknowns of the speed from which the data hardly separate the growth."""
+        rows = self.correlation.items()
+        return tuple(n for n, x in rows if abs(x) > _TOGETHER and n != "work_of_adhesion")
+
+
 def tests_by_dwell(cycles: Sequence[Cycle]) -> tuple[Array, Array, float]:
     """Return times in contact [s] and forces [N] of tests at one speed, and their uncertainty.
 
     Raises
     ------
     ValueError
-        If the tests have several speeds.
+        If the tests have several speeds, or one has no approach.
     """
     speeds = same_speeds(cycles)
     if len(speeds) > 1:
         listed = ", ".join(readable(same[0].speed.value, "m/s", digits=3) for same in speeds)
         raise InputError(
             f"tests at {listed}: the force grows with speed and with dwell; give the files of one "
-            "speed"
+            "speed, or all to `viscotack identify rates` or `viscotack identify edge`"
         )
-    times = np.array([_in_contact(one) for one in cycles])
+    known = [time for one in cycles if (time := contact_time(one)) is not None]
+    if len(known) < len(cycles):
+        raise InputError(
+            f"{len(cycles) - len(known)} of {len(cycles)} tests have no approach, so that their "
+            "time in contact is unknown; give files with approach and dwell"
+        )
+    times = np.array(known)
     forces = np.array([one.pull_off_force.value for one in cycles])
     own = np.mean([one.pull_off_force.uncertainty / one.pull_off_force.value for one in cycles])
     return times, forces, float(own)
@@ -278,35 +316,40 @@ def check_relaxed(material: Material, times: Array) -> None:
             f"the modulus relaxes by {first / last - 1:.0%} between contact times of "
             f"{readable(float(times.min()), 's', digits=2)} and "
             f"{readable(float(times.max()), 's', digits=2)}, which changes the force like a "
-            "growing interface does; leave out the short dwells"
+            "growing interface does; leave out the short dwells, or compute the forces of a rate "
+            "series with their history"
         )
 
 
-def check_dwells(cycles: Sequence[Cycle]) -> None:
-    """Raise an InputError where the force at one speed grows with the dwell.
+def contact_time(cycle: Cycle) -> float | None:
+    """Return the time from the start of the dwell to the pull-off [s]; None without an approach."""
+    begin, dwell = cycle.segments.begin, cycle.segments.dwell
+    time = float(cycle.time[cycle.pull_off_at] - cycle.time[dwell])
+    return time if begin < dwell and time > 0 else None
 
-    A rate series averages the tests of a speed; tests after different dwells are repeats only if
-    the dwell does not matter.
+
+def same_times(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
+    """Return tests of one speed by their time in contact, the shortest first.
+
+    Times within a factor of 1.25 are equal, and all are unless they differ by a factor of 2.
     """
-    for same in same_speeds(cycles):
-        t = np.array([_in_contact(one) for one in same])
-        if t.size < _FEWEST or t.min() <= 0 or t.max() < _APART * t.min():
-            continue
-        F = np.array([one.pull_off_force.value for one in same])
-        found: Any = scipy.stats.linregress(np.log(t), F / F.mean())
-        if found.pvalue < _CERTAIN:
-            raise InputError(
-                f"the pull-off force at {readable(same[0].speed.value, 'm/s', digits=3)} changes "
-                f"by {np.log(10) * found.slope:.1%} in a decade of contact time "
-                f"({readable(float(t.min()), 's', digits=2)} to "
-                f"{readable(float(t.max()), 's', digits=2)}), so these tests are no repeats: give "
-                "files of one dwell, or the dwells of one speed to `viscotack identify dwell`"
-            )
+    times = np.array([contact_time(one) or 0.0 for one in cycles])
+    if times.min() <= 0 or times.max() < APART * times.min():
+        return [list(cycles)]
+    groups: list[list[int]] = []
+    for i in np.argsort(times, kind="stable").tolist():
+        if not groups or times[i] > _SAME * times[groups[-1][0]]:
+            groups.append([])
+        groups[-1].append(i)
+    return [[cycles[i] for i in same] for same in groups]
 
 
-def _in_contact(cycle: Cycle) -> float:
-    """Return the time from the start of the dwell to the pull-off [s]."""
-    return float(cycle.time[cycle.pull_off_at] - cycle.time[cycle.segments.dwell])
+def of_one_time(cycles: Sequence[Cycle]) -> Array:
+    """Return forces [N] of tests of one speed, without their power law of the time in contact."""
+    forces = np.log([one.pull_off_force.value for one in cycles])
+    times = np.log([contact_time(one) or 1.0 for one in cycles])
+    slope = np.polyfit(times, forces, 1)[0]
+    return np.exp(forces - slope * (times - times.mean()))
 
 
 def _checked(

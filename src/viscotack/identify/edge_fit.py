@@ -22,6 +22,7 @@ from viscotack.model.geometry import Layer
 from viscotack.theory.sphere import edge_law
 from viscotack.units import readable
 
+from .contact_time import PER_DECADE
 from .covariances import ModelError
 from .force_ratios import ForceRatios
 from .forward import Forward
@@ -41,7 +42,8 @@ _FURTHEST = 10.0  # factor beyond the measured speeds
 class EdgeFit(SeriesFit):
     """Edge law fitted to a rate series.
 
-    The unknowns are "work_of_adhesion" [J/m2], "reference_speed" [m/s] and "exponent".
+    The unknowns are "work_of_adhesion" [J/m2], "reference_speed" [m/s] and "exponent", and with
+    several times in contact at one speed "growth_per_decade".
     """
 
     @cached_property
@@ -71,7 +73,7 @@ def identify_edge(series: RateSeries) -> EdgeFit:
     speed = series.speed
     if np.unique(speed).size < _LEAST:
         raise InputError(f"the edge law has three unknowns: pull off at {_LEAST} or more speeds")
-    most = 1.2 * float(series.force.min()) / (1.5 * np.pi * series.radius)
+    most = series.largest_work
     works, speeds, exponents = _COUNTS
     axes = {
         "work_of_adhesion": np.geomspace(_WORKS * most, most, works),
@@ -83,7 +85,7 @@ def identify_edge(series: RateSeries) -> EdgeFit:
     search = Search(
         series,
         Forward(series.passport.material, series.radius),
-        Table(axes, np.log(forces), speed.size),
+        Table(axes, np.log(forces)[..., None]),
         series.noise + model.covariance(speed),
         ForceRatios.of_a_rigid_machine(speed.size),
         model,
@@ -99,9 +101,20 @@ def identify_edge(series: RateSeries) -> EdgeFit:
 
 
 def edge_forces(
-    series: RateSeries, values: Mapping[str, Any], speed: npt.ArrayLike, load: npt.ArrayLike
+    series: RateSeries,
+    values: Mapping[str, Any],
+    speed: npt.ArrayLike,
+    load: npt.ArrayLike,
+    decades: Array | None = None,
 ) -> Array:
-    """Return pull-off forces [N] of the sphere of a series with edge laws, at speeds and loads."""
+    """Return pull-off forces [N] of the sphere of a series with edge laws, at speeds and loads.
+
+    `decades` are those from the middle time in contact.
+    """
+    law = dict(values)
+    per_decade = law.pop(PER_DECADE, 0.0)
+    if decades is not None:
+        law["work_of_adhesion"] = law["work_of_adhesion"] * (1 + per_decade * decades)
     return np.asarray(
         edge_law.pull_off_force(
             speed,
@@ -109,7 +122,7 @@ def edge_forces(
             radius=series.radius,
             contact_modulus=series.passport.material.contact_modulus,
             stiffness=series.stiffness,
-            **values,
+            **law,
         )
     )
 

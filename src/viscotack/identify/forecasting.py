@@ -26,6 +26,7 @@ from viscotack.lab.tack.repeats import SAME
 from viscotack.model.geometry import Layer
 from viscotack.model.protocol import Move
 
+from .contact_time import PER_DECADE
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
 from .edge_fit import EdgeFit, edge_forces, refuse_far
 from .forward import law_of
@@ -60,6 +61,8 @@ class RateForecast:
         Preload [N] and temperature [K] of the prediction.
     dwell : float or None
         Time under the preload [s]; None for a contact that has relaxed.
+    contact_time : ndarray or None
+        Time in contact [s] where it counts, shape (n,).
     posterior : Posterior
         Sampled interfaces.
     raised : ndarray
@@ -78,6 +81,7 @@ class RateForecast:
     preload: float
     temperature: float | None
     dwell: float | None
+    contact_time: Array | None
     posterior: Posterior
     raised: Array
     words: tuple[str, ...] = ()
@@ -132,7 +136,14 @@ def forecast_rates(
             f"at {passport.temperature:g} K"
         )
     known, loaded = fit.forward.beside(passport.material), np.full(v.size, load)
-    middle = known.pulled(work, gap, v, load, growth=law)
+    time, grown = None, np.ones(v.size)
+    if given.decades is not None:
+        time = np.full(v.size, given.middle_time)
+        if dwell is not None:
+            curves = (known.curve(work, gap, float(each), load, law) for each in v)
+            time = dwell + np.array([_way(*curve, given.stiffness) for curve in curves]) / v
+        grown += fit.best.values[PER_DECADE] * np.log10(time / given.middle_time)
+    middle = known.pulled(work * grown, gap, v, load, growth=law)
     pressed: tuple[tuple[Move, ...], ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
@@ -143,9 +154,9 @@ def forecast_rates(
     if law is not None or isinstance(known.body, Layer):
         found = by_theory(changed, v, given.theory_error)
     else:
-        likely = np.log(np.vstack([(work, gap), draws]))
+        likely = np.log(np.vstack([(work, gap), draws[:, :2]]))
         found = tested(likely, changed, tests, given.theory_error)
-    moved, left = conditioned(fit, [tests], draws, found.model)
+    moved, left = conditioned(fit, [tests], draws, found.model, time)
     forecast = _banded(
         fit,
         v,
@@ -158,6 +169,7 @@ def forecast_rates(
         preload=load,
         temperature=passport.temperature,
         dwell=dwell,
+        contact_time=time,
     )
     said = forecast_words(fit, forecast, middle.crack_speed)
     simulated = simulation_words(v, found.model.simulation, found.simulations)
@@ -186,7 +198,8 @@ def forecast_edge(
     laws = {name: draws[:, i : i + 1] for i, name in enumerate(names)}
     both, m = np.concatenate([own, v]), own.size
     loads = np.concatenate([given.load, np.full(v.size, load)])
-    forces = edge_forces(given, laws, both, loads)
+    decades = None if given.decades is None else np.append(given.decades, np.zeros(v.size))
+    forces = edge_forces(given, laws, both, loads, decades)
     spread = ModelError.of_theory(given.theory_error, both.size).covariance(both)
     if fit.trend:
         spread = spread + trend_covariance(both, own, fit.between_speeds)
@@ -203,6 +216,7 @@ def forecast_edge(
         preload=load,
         temperature=fit.passport.temperature,
         dwell=None,
+        contact_time=None if given.decades is None else np.full(v.size, given.middle_time),
     )
     said = series_forecast_words(fit, forecast, "the law alone")
     return replace(forecast, words=tuple(said))
@@ -236,7 +250,7 @@ def _banded(
     preload : float
         Preload [N].
     **known
-        Temperature and dwell of the forecast.
+        Temperature, dwell and time in contact of the forecast.
     """
     rng = np.random.default_rng(0)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
@@ -274,15 +288,23 @@ def _banded(
     )
 
 
+def _way(depth: Array, force: Array, stiffness: float | None) -> float:
+    """Return the way of the drive [m] from the start of a retraction to its pull-off."""
+    off = int(np.argmin(force))
+    spring = 0.0 if stiffness is None else float(force[0] - force[off]) / stiffness
+    return float(depth[0] - depth[off]) + spring
+
+
 def _departure(fit: SeriesFit, speed: Array, part: float) -> Array:
     """Return limits of measured over fitted force, interpolated by speed, shape (2, n)."""
-    order = np.argsort(fit.given.speed)
-    force = fit.given.force[order]
-    noise = np.array([one.force.uncertainty for one in fit.series])[order]
-    off = np.log(force / np.array(fit.forces)[order])
-    reach = NormalDist().inv_cdf(1 - part) * noise / force
-    wanted, at = np.log(speed), np.log(fit.given.speed[order])
-    return np.exp([np.interp(wanted, at, off + sign * reach) for sign in (-1, 1)])
+    at, same = np.unique(fit.given.speed, return_inverse=True)
+    noise = np.array([one.force.uncertainty for one in fit.series])
+    off = np.log(fit.given.force / np.array(fit.forces))
+    reach = NormalDist().inv_cdf(1 - part) * noise / fit.given.force
+    least, most = np.full(at.size, np.inf), np.full(at.size, -np.inf)
+    np.minimum.at(least, same, off - reach)
+    np.maximum.at(most, same, off + reach)
+    return np.exp([np.interp(np.log(speed), np.log(at), ends) for ends in (least, most)])
 
 
 def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, ...]:
@@ -290,7 +312,7 @@ def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, .
     growth = fit.growth
     laws = []
     for w, gap, *more in fit.sampled(seed).thinned(count).tolist():
-        grows = None if growth is None else growth.opening.growth(gap, *more)
+        grows = None if growth is None else growth.opening.growth(gap, *more[:2])
         laws.append(law_of(w, gap, grows))
     return tuple(laws)
 
@@ -300,6 +322,7 @@ def conditioned(
     asked: Sequence[SphereTests],
     draws: Array,
     model: ModelError,
+    time: Array | None = None,
 ) -> tuple[Array, Array]:
     """Return ln of the forces of tests for sampled interfaces, given the series, and a covariance.
 
@@ -313,6 +336,8 @@ def conditioned(
         Sampled interfaces.
     model : ModelError
         Errors of the forces of the tests.
+    time : ndarray, optional
+        Time in contact of each test [s]; by default the middle one of the series.
 
     Returns
     -------
@@ -338,10 +363,14 @@ def conditioned(
     gain, left = _left_open(fit, spread)
     works, gaps, laws = draws[:, :1], draws[:, 1:2], None
     if fit.growth is not None:
-        laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
-    at, *others = (
-        x.forward.pulled(works, gaps, x.speed, x.load, growth=laws).force for x in (own, *asked)
-    )
+        laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:4])
+    measured, wanted = works, works
+    if given.decades is not None:
+        measured = works * (1 + draws[:, -1:] * given.decades)
+        if time is not None:
+            wanted = works * (1 + draws[:, -1:] * np.log10(time / given.middle_time))
+    at = own.forward.pulled(measured, gaps, own.speed, own.load, growth=laws).force
+    others = [x.forward.pulled(wanted, gaps, x.speed, x.load, growth=laws).force for x in asked]
     factor = fit.yielding
     if ratio.known is not None:
         factor = ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
@@ -376,13 +405,19 @@ def _slower(fit: SeriesFit, speed: Array, preload: float, comparable: bool) -> t
     relaxed contact. Zero where no such force was measured under the same conditions.
     """
     slower, uncertain = np.zeros(speed.size), np.zeros(speed.size)
-    excluded = fit.excluded if isinstance(fit, RateSeriesFit) else ()
-    for one in (*fit.series, *(one for one, _ in excluded)) if comparable else ():
+    # at the middle time in contact; how much excluded tests grow until then is unknown
+    grown = fit.search.grown(fit.best.values)
+    rows = [(one, one.force.value) for one in fit.series]
+    if grown is not None:
+        rows = [(one, force / x) for (one, force), x in zip(rows, grown, strict=True)]
+    elif isinstance(fit, RateSeriesFit):
+        rows += [(one, one.force.value) for one, _ in fit.excluded]
+    for one, force in rows if comparable else ():
         if one.preload is None or one.preload > (1 + SAME) * preload:
             continue
-        at = (speed > (1 + SAME) * one.speed) & (one.force.value > slower)
+        at = (speed > (1 + SAME) * one.speed) & (force > slower)
         parts = one.force.uncertainty / one.force.value, fit.given.scatter, fit.between_speeds
-        slower[at], uncertain[at] = one.force.value, np.linalg.norm(parts)
+        slower[at], uncertain[at] = force, np.linalg.norm(parts)
     return slower, uncertain
 
 

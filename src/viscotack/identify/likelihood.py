@@ -157,8 +157,8 @@ class Objective:
         values = {p.name: p.outer(x) for p, x in zip(free, found.x, strict=True)}
         return Best(values | dict(held), 2 * float(found.cost), found.fun.size)
 
-    def covariance(self, best: Best) -> Array:
-        """Return the covariance of the search coordinates in the linearised model."""
+    def slopes(self, best: Best) -> Array:
+        """Return the derivatives of residuals and priors by the search coordinates."""
         at = np.array([p.inner(best.values[p.name]) for p in self.parameters])
         sizes = [1e-5 if p.logarithmic else 1e-5 * (p.high - p.low) for p in self.parameters]
         columns = [
@@ -169,7 +169,11 @@ class Objective:
             / (2 * size)
             for step, size in zip(np.diag(sizes), sizes, strict=True)
         ]
-        jacobian = np.stack(columns, axis=1)
+        return np.stack(columns, axis=1)
+
+    def covariance(self, best: Best) -> Array:
+        """Return the covariance of the search coordinates in the linearised model."""
+        jacobian = self.slopes(best)
         return np.asarray(np.linalg.pinv(jacobian.T @ jacobian), dtype=float)
 
     def interval(self, name: str, best: Best, level: float = 0.9) -> Interval:

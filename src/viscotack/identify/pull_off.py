@@ -17,6 +17,8 @@ from viscotack.lab.tack.repeats import Repeats, pooled, same_speeds, temperature
 from viscotack.model.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
 
+from .contact_time import contact_time, of_one_time, same_times
+
 # Fractions of the largest tension at which the travel is read, in addition to zero.
 PARTS = (0.3, 0.6, 0.85)
 # window relative to the pull-off around such a force, and smallest number of points in it
@@ -112,7 +114,7 @@ class History:
 
 @dataclass(frozen=True)
 class PullOff:
-    """One pull-off, or the mean of several at one temperature and speed.
+    """One pull-off, or the mean of several at one temperature, speed and time in contact.
 
     Parameters
     ----------
@@ -135,6 +137,8 @@ class PullOff:
     between_tests : float
         Relative standard uncertainty of the force of a single test beyond its own, from repeats; 0
         without repeats.
+    contact_time : float, optional
+        Time from the start of the dwell to the pull-off [s].
     """
 
     speed: float
@@ -146,6 +150,7 @@ class PullOff:
     temperature: float | None = None
     shift: float = 1.0
     between_tests: float = 0.0
+    contact_time: float | None = None
 
     @property
     def true_speed(self) -> float:
@@ -164,32 +169,55 @@ class PullOff:
 
 
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
-    """Return one pull-off per temperature and speed; repeated cycles are averaged.
+    """Return one pull-off per temperature, speed and time in contact; repeats are averaged.
 
-    These are equal as in :func:`~viscotack.lab.tack.repeats.same_speeds`. The uncertainty of a mean
-    includes the scatter of repeated cycles, which is pooled over all of them. The preload is the
-    force at the start of the retractions, or None if one begins in tension.
+    Temperatures and speeds are equal as in :func:`~viscotack.lab.tack.repeats.same_speeds`, times
+    as in :func:`.same_times`. The uncertainty of a mean includes the scatter of repeated cycles,
+    which is pooled over all of them; that at one speed is about a power law of the time. The
+    preload is the force at the start of the retractions, or None if one begins in tension.
     """
-    groups = same_speeds(cycles)
-    repeats = pooled([[one.pull_off_force.value for one in same] for same in groups])
-    rows = zip(groups, repeats.means, repeats.far, strict=True)
-    return [_of_one_speed(same, mean, repeats, far) for same, mean, far in rows]
+    groups = [same_times(same) for same in same_speeds(cycles)]
+    tests = [[one for same in times for one in same] for times in groups]
+    several = [len(times) > 1 for times in groups]
+    forces = [
+        of_one_time(same) if more else [one.pull_off_force.value for one in same]
+        for same, more in zip(tests, several, strict=True)
+    ]
+    repeats = pooled(forces).less(sum(several))
+    found = []
+    for times, same, mean, far in zip(groups, tests, repeats.means, repeats.far, strict=True):
+        speed = float(np.mean([cycle.speed.value for cycle in same]))
+        means = [mean]
+        if len(times) > 1:
+            rows = [[one.pull_off_force.value for one in each] for each in times]
+            means = list(pooled(rows).means)
+        remarks = _remarks(same, speed, mean, repeats, far)
+        for each, middle in zip(times, means, strict=True):
+            found.append(_mean_of(each, speed, middle, repeats, remarks))
+            remarks = ()
+    return found
 
 
-def _of_one_speed(
-    same: Sequence[Cycle], mean: float, repeats: Repeats, far: Sequence[int]
-) -> PullOff:
-    speed = float(np.mean([cycle.speed.value for cycle in same]))
-    own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
-    spread = mean * repeats.uncertainty(len(same))
-    begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
+def _remarks(
+    same: Sequence[Cycle], speed: float, mean: float, repeats: Repeats, far: Sequence[int]
+) -> tuple[str, ...]:
+    """Return a sentence on each test that is far from the others at its speed."""
     at = readable(speed, "m/s", digits=3)
-    remarks = tuple(
+    return tuple(
         f"one of {len(same)} tests at {at} is far from the others there and counts little: "
         f"{readable(same[i].pull_off_force.value, 'N', digits=3)}, their mean is "
         f"{readable(mean, 'N', digits=3)} (scatter of single tests {repeats.scatter:.1%})"
         for i in far
     )
+
+
+def _mean_of(
+    same: Sequence[Cycle], speed: float, mean: float, repeats: Repeats, remarks: tuple[str, ...]
+) -> PullOff:
+    own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
+    spread = mean * repeats.uncertainty(len(same))
+    begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
+    times = [time for cycle in same if (time := contact_time(cycle)) is not None]
     return PullOff(
         speed,
         Measured(mean, float(np.hypot(own, spread))),
@@ -199,6 +227,7 @@ def _of_one_speed(
         _history(same),
         temperature_of(same),
         between_tests=repeats.uncertainty(1),
+        contact_time=float(np.exp(np.mean(np.log(times)))) if len(times) == len(same) else None,
     )
 
 

@@ -333,6 +333,8 @@ def _left(covariance: Array, tests: int) -> float:
 
 def _words(fit: RateSeriesFit, about_interface: bool) -> list[str]:
     said = []
+    if fit.ageing is not None:
+        said.append(f"all tests are {readable(fit.given.middle_time, 's', digits=2)} in contact")
     if len(fit.solutions) > 1:
         said.append(
             f"{len(fit.solutions)} separate interfaces fit the series; the ranking takes their "

@@ -54,7 +54,7 @@ class RateSeriesFit(SeriesFit):
     """Interface fitted to a rate series on a linear solid.
 
     The unknowns are "work_of_adhesion" and "equilibrium_gap", with growth also "strengthening" and
-    "exponent".
+    "exponent", and with several times in contact at one speed "growth_per_decade".
 
     Parameters
     ----------
@@ -243,8 +243,8 @@ def _check_place(search: Search, best: Best) -> None:
     Conditions whose forces are simulated need no theory.
     """
     series, gap = search.series, search.interface(best).gap
-    simulated = search.ratio.which
-    if not simulated and search.table.effective(best.values) < LEAST_TABOR:
+    simulated, grown = search.ratio.which, search.grown(best.values)
+    if not simulated and search.table.effective(best.values, grown) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {readable(gap, 'm', digits=3)}, has a cohesive zone as large "
             "as the contact, so the theory does not hold: simulate"

@@ -21,7 +21,7 @@ from viscotack.model.materials import Material, Passport
 from viscotack.model.materials.passport_uncertainty import shift_error
 from viscotack.model.protocol import Move
 
-from .contact_time import check_dwells
+from .contact_time import APART, check_relaxed
 from .pull_off import History, PullOff, pull_offs
 
 DIFFERENT = 3.0  # K: larger differences are not due to the control of a chamber
@@ -220,6 +220,9 @@ class RateSeries:
         object.__setattr__(self, "tests", tuple(tests))
         self._check_tests()
         self._check_numbers()
+        if self.decades is not None and not self.history:
+            shifts = np.array([one.shift for one in self.tests])
+            check_relaxed(self.passport.material, self.contact_times / shifts)
 
     def _check_tests(self) -> None:
         speeds = {one.speed for one in self.tests}
@@ -286,6 +289,43 @@ class RateSeries:
     def force(self) -> Array:
         """Pull-off forces [N], shape (S,)."""
         return np.array([one.force.value for one in self.tests])
+
+    @cached_property
+    def contact_times(self) -> Array:
+        """Times in contact [s], shape (S,); nan where they are unknown."""
+        return np.array([one.contact_time for one in self.tests], dtype=float)
+
+    @property
+    def middle_time(self) -> float:
+        """Geometric mean of the times in contact [s]."""
+        return float(np.exp(np.log(self.contact_times).mean()))
+
+    @cached_property
+    def decades(self) -> Array | None:
+        """Decades from `middle_time` to the time in contact of each test, shape (S,).
+
+        None where no two tests at one speed and temperature have different times: such tests do
+        not determine a growth with time, because it could be one with speed.
+        """
+        times, tests = self.contact_times, self.tests
+        same: dict[tuple[float, float | None], list[float]] = {}
+        for one, time in zip(tests, times.tolist(), strict=True):
+            same.setdefault((one.speed, one.temperature), []).append(time)
+        if np.isnan(times).any() or not any(max(x) >= APART * min(x) for x in same.values()):
+            return None
+        return np.log10(times / self.middle_time)
+
+    @property
+    def confounded(self) -> bool:
+        """Whether times in contact differ from speed to speed alone, so that effects are one."""
+        times = self.contact_times
+        return self.decades is None and bool(times.max() >= APART * times.min())
+
+    @property
+    def largest_work(self) -> float:
+        """Work of adhesion [J/m2] above those of a search: a slow force is 1.5 pi R w."""
+        at = {v: float(self.force[self.speed == v].max()) for v in self.speed}
+        return 1.2 * min(at.values()) / (1.5 * np.pi * self.radius)
 
     @cached_property
     def noise(self) -> Array:
@@ -379,7 +419,6 @@ def series_of(
     ValueError
         If no cycle is valid, or the tests are no rate series.
     """
-    check_dwells(found.cycles)
     tests = pull_offs(found.cycles)
     if temperature is not None:
         tests = [replace(one, temperature=temperature) for one in tests]

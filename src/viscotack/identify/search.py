@@ -19,12 +19,13 @@ from viscotack.model.materials import Passport
 from viscotack.simulate.crack_contact.by_crack import LEAST_TABOR
 from viscotack.theory.crack.contact.growing import lattice_spline
 
+from .contact_time import PER_DECADE, FoundAgeing
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import ForceRatios
 from .forward import Forward, Interface
 from .growth import EXPONENT, STRENGTHENING, Opening, growing, growth_parameters
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
-from .pull_off import PARTS, PullOff
+from .pull_off import PullOff
 from .rate_series import RateSeries
 from .words import misfit_words
 
@@ -37,15 +38,13 @@ class Table:
     Parameters
     ----------
     axes : mapping
-        Unknown -> ascending values, at least four.
-    logs : ndarray, shape (values of each unknown, columns)
-        ln of the forces, and of what else is interpolated.
-    count : int
-        Number of forces.
+        Unknown -> ascending values, at least four; the first is the work of adhesion.
+    logs : ndarray, shape (values of each unknown, S, columns)
+        ln of the force of each test, and of what else is interpolated.
     """
 
-    def __init__(self, axes: Mapping[str, Array], logs: Array, count: int) -> None:
-        self.axes, self._count = dict(axes), count
+    def __init__(self, axes: Mapping[str, Array], logs: Array) -> None:
+        self.axes = dict(axes)
         self._spline = lattice_spline([_inner(name, x) for name, x in self.axes.items()], logs)
 
     @classmethod
@@ -85,30 +84,28 @@ class Table:
             growth = opening.growth(gap, values[STRENGTHENING], values[EXPONENT])
         work, gap = values["work_of_adhesion"], values["equilibrium_gap"]
         found = forward.pulled(work, gap, speed, preload, radii, growth)
-        least = found.effective_tabor.min(axis=-1)
-        columns = [np.log(found.force), np.log(least)[..., None]]
+        columns = [np.log(found.force)[..., None], np.log(found.effective_tabor)[..., None]]
         if travels:
             # travels exist only for starts in compression
-            columns.append(np.log(found.travels).reshape(*least.shape, -1))
-        return cls(axes, np.concatenate(columns, axis=-1), speed.size)
+            columns.append(np.log(found.travels))
+        return cls(axes, np.concatenate(columns, axis=-1))
 
-    def __call__(self, values: Mapping[str, float]) -> Array:
-        """Return forces [N], shape (S,)."""
-        return np.exp(self._at(values)[: self._count])
+    def __call__(self, values: Mapping[str, float], grown: Array | None = None) -> Array:
+        """Return forces [N], shape (S,); the work of adhesion of each is `grown` times as large."""
+        return np.exp(self._at(values, grown)[:, 0])
 
-    def effective(self, values: Mapping[str, float]) -> float:
+    def effective(self, values: Mapping[str, float], grown: Array | None = None) -> float:
         """Return the smallest effective Tabor number of the series."""
-        return float(np.exp(self._at(values)[self._count]))
+        return float(np.exp(self._at(values, grown)[:, 1].min()))
 
-    def travels(self, values: Mapping[str, float]) -> Array:
+    def travels(self, values: Mapping[str, float], grown: Array | None = None) -> Array:
         """Return travels between forces [m], shape (S, travels)."""
-        return np.exp(self._at(values)[self._count + 1 :]).reshape(-1, 1 + len(PARTS))
+        return np.exp(self._at(values, grown)[:, 2:])
 
     def forces(self, points: Array) -> Array:
         """Return forces of many interfaces, shape (N, S), at points of :meth:`dense`."""
         parts = [
-            self._spline(points[i : i + _AT_ONCE])[:, : self._count]
-            for i in range(0, len(points), _AT_ONCE)
+            self._spline(points[i : i + _AT_ONCE])[..., 0] for i in range(0, len(points), _AT_ONCE)
         ]
         return np.exp(np.concatenate(parts))
 
@@ -120,9 +117,18 @@ class Table:
             axes.append(np.interp(place, np.arange(x.size), _inner(name, x)))
         return np.stack([x.ravel() for x in np.meshgrid(*axes, indexing="ij")], axis=1)
 
-    def _at(self, values: Mapping[str, float]) -> Array:
-        point = [_inner(name, values[name]) for name in self.axes]
-        return self._spline(np.array(point))
+    def _at(self, values: Mapping[str, float], grown: Array | None) -> Array:
+        point = np.array([_inner(name, values[name]) for name in self.axes])
+        if grown is None:
+            return self._spline(point)
+        factors, at = np.unique(grown, return_inverse=True)
+        works = point[0] + np.log(factors)
+        points = np.tile(point, (factors.size, 1))
+        points[:, 0] = np.clip(works, *np.log(self.axes["work_of_adhesion"][[0, -1]]))
+        found = self._spline(points)
+        # beyond the table forces are proportional to the work
+        found[..., 0] += (works - points[:, 0])[:, None]
+        return found[at, np.arange(at.size)]
 
 
 def lattice(axes: Mapping[str, Array]) -> dict[str, Array]:
@@ -136,6 +142,7 @@ def _inner(name: str, value: Any) -> Any:
     return np.asarray(value, dtype=float) if name == EXPONENT else np.log(value)
 
 
+_APART = 3.0  # standard deviations from the force that the other tests give
 _LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth
 # Steps of work, range, strengthening and exponent of the coarse table, in search
@@ -154,6 +161,8 @@ _SEPARATE, _SHARE = 4, 0.2
 # Refinement of the coarse table for the search, and misfits above the minimum that are kept
 # at first, and where an interval needs more.
 _DENSE, _KEPT = 3, (30.0, 150.0)
+# Largest change of the work with the time in contact, over that after the middle time.
+_MOST_GROWN = 0.9
 # Refinement of the table without growth for a list of likely interfaces, and its longest length.
 _LIKELY, _MOST_LIKELY = 4, 300
 
@@ -223,11 +232,14 @@ class Search:
         """Objective function over the parameters of the table."""
         table, white = self.table, self.white
         whole = self.series.curves and self.some is None
-        shapes = _Shapes(self.series, table) if whole else None
+        shapes = _Shapes(self.series) if whole else None
 
         def residuals(values: Mapping[str, float]) -> Array:
-            rest = white @ self._relative(table(values), values)
-            return rest if shapes is None else np.concatenate([rest, shapes(values)])
+            grown = self.grown(values)
+            rest = white @ self._relative(table(values, grown), values)
+            if shapes is None:
+                return rest
+            return np.concatenate([rest, shapes(table.travels(values, grown))])
 
         return Objective(residuals, self.parameters)
 
@@ -242,7 +254,22 @@ class Search:
                 continue
             prior = self.series.prior if name == "work_of_adhesion" else None
             found.append(Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior))
+        if self.series.decades is not None:
+            most = _MOST_GROWN / float(np.abs(self.series.decades).max())
+            found.append(Parameter(PER_DECADE, -most, most, 0.0, logarithmic=False))
         return tuple(found)
+
+    def grown(self, values: Mapping[str, Any]) -> Array | None:
+        """Return the work of adhesion after each time in contact over that after the middle one."""
+        if self.decades is None:
+            return None
+        return 1 + np.asarray(values[PER_DECADE]) * self.decades
+
+    @property
+    def decades(self) -> Array | None:
+        """Decades from the middle time in contact to that of each pull-off in the table."""
+        known = self.series.decades
+        return known if known is None or self.some is None else known[self.some]
 
     @property
     def tests(self) -> SphereTests:
@@ -259,7 +286,7 @@ class Search:
 
     def forces(self, best: Best) -> Array:
         """Return the pull-off forces of some parameters [N], shape (S,)."""
-        return self.table(best.values) * self.ratio(best.values)
+        return self.table(best.values, self.grown(best.values)) * self.ratio(best.values)
 
     def best(self) -> Best:
         """Return the best fit from several starts."""
@@ -292,8 +319,12 @@ class Search:
 
     def scanned(self, times: int) -> tuple[Array, Array]:
         """Return points of a refined lattice, in search coordinates, and their misfits."""
-        points = self.table.dense(times)
-        rest = self._relative(self.table.forces(points), self._values(points.T)) @ self.white.T
+        points, white, decades = self.table.dense(times), self.white, self.decades
+        rest = self._relative(self.table.forces(points), self._values(points.T)) @ white.T
+        if decades is not None and decades.any():
+            # with the growth in time that fits each best, forces being proportional to the work
+            along = white @ decades / np.linalg.norm(white @ decades)
+            rest = rest - np.outer(rest @ along, along)
         misfits = np.sum(rest**2, axis=1)
         if self.series.prior is not None:
             value, relative = self.series.prior
@@ -302,8 +333,9 @@ class Search:
 
     def _values(self, inner: Array) -> dict[str, Any]:
         """Return the parameters by name from search coordinates."""
-        rows = zip(self.parameters, inner, strict=True)
-        return {one.name: one.outer_of(x) for one, x in rows}
+        # a point of the table has no growth in time, which is the last parameter
+        rows = zip(self.parameters, inner, strict=False)
+        return {PER_DECADE: 0.0} | {one.name: one.outer_of(x) for one, x in rows}
 
     def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
         """Return relative residuals of forces by theory, corrected to those of the tests."""
@@ -314,7 +346,7 @@ class Search:
 def _works(forward: Forward, series: RateSeries, grown: float, per_decade: float) -> Array:
     """Return the works of adhesion of a table, for a largest growth factor."""
     # the energy of an opening edge is 1 to 1/k works of adhesion
-    most = 1.2 * float(series.force.min()) / (1.5 * np.pi * forward.radius)
+    most = series.largest_work
     span = 2.0 * grown / forward.material.modulus_ratio
     return np.geomspace(most / span, most, 3 + round(per_decade * float(np.log10(span))))
 
@@ -370,6 +402,9 @@ class Settled:
         Relative scatter from speed to speed beyond that of repeated tests and theory.
     trend : bool
         Whether most of its variance is an error that follows a power of the speed.
+    unexplained : tuple of int
+        Tests whose force differs by more than three standard deviations from that which a fit to
+        the others gives, without that scatter.
     """
 
     search: Search
@@ -377,6 +412,7 @@ class Settled:
     scatter: float
     between_speeds: float
     trend: bool
+    unexplained: tuple[int, ...]
 
     @property
     def surprise(self) -> float:
@@ -444,6 +480,20 @@ class SeriesFit(Settled):
         """Objective function, for profiles and sampling."""
         return self.search.objective
 
+    @cached_property
+    def ageing(self) -> FoundAgeing | None:
+        """Growth with the time in contact, if the tests determine it."""
+        objective = self.objective
+        if self.given.decades is None:
+            return None
+        without = objective.best({PER_DECADE: 0.0}, self.best)
+        covariance = objective.covariance(self.best)
+        deviation = np.sqrt(np.diag(covariance))
+        correlation = covariance[-1] / (deviation * deviation[-1])
+        names = [one.name for one in objective.parameters[:-1]]
+        better = max(without.misfit - self.best.misfit, 0.0)
+        return FoundAgeing(better, dict(zip(names, correlation[:-1].tolist(), strict=True)))
+
     def sampled(self, seed: int = 0) -> Posterior:
         """Sample the unknowns from the posterior, of all solutions."""
         return posterior(self.objective, self.best, others=self.solutions[1:], seed=seed)
@@ -476,12 +526,31 @@ def settled(search: Search) -> Settled:
     best = search.best()
     rest = search.objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
-    first = Settled(search, best, scatter, 0.0, False)
+    first = Settled(search, best, scatter, 0.0, False, _unexplained(search, best))
     plain = _widened(first, trend=False)
     if not plain.between_speeds or np.unique(search.series.speed).size < _TREND_SPEEDS:
         return plain
     trend = _widened(first, trend=True)
     return trend if trend.surprise + _PREFERRED < plain.surprise else plain
+
+
+def _unexplained(search: Search, best: Best) -> tuple[int, ...]:
+    """Return the tests that those left do not explain, excluding the farthest one by one."""
+    count, root = len(search.spread), np.linalg.cholesky(search.spread)
+    off = root @ search.objective.residuals(best.values)[:count]
+    slopes = root @ search.objective.slopes(best)[:count]
+    left = list(range(count))
+    while len(left) > slopes.shape[1] + 1:
+        inverse, along = np.linalg.inv(search.spread[np.ix_(left, left)]), slopes[left]
+        gain = inverse @ along
+        # weights of the residuals that no change of the unknowns makes smaller
+        weights = inverse - gain @ np.linalg.pinv(along.T @ gain) @ gain.T
+        size = np.sqrt(np.maximum(np.diag(weights), 1e-6 * np.diag(inverse)))
+        apart = np.abs(weights @ off[left]) / size
+        if apart.max() < _APART:
+            break
+        del left[int(np.argmax(apart))]
+    return tuple(sorted(set(range(count)) - set(left)))
 
 
 def _widened(first: Settled, *, trend: bool) -> Settled:
@@ -493,7 +562,8 @@ def _widened(first: Settled, *, trend: bool) -> Settled:
         freedom = max(freedom, 1)
 
     def with_scatter(between: float) -> Search:
-        more = between**2 * np.eye(speed.size)
+        # half of the variance is one departure of all tests at a speed, after several times
+        more = between**2 * (np.eye(speed.size) + np.equal.outer(speed, speed)) / 2
         if trend:
             more = (1 - TREND) * more + trend_covariance(speed, speed, between)
         return replace(search, spread=search.spread + more)
@@ -509,7 +579,8 @@ def _widened(first: Settled, *, trend: bool) -> Settled:
     root = high if excess(high) >= 0 else root_scalar(excess, bracket=(low, high), xtol=_CLOSE).root
     between = float(np.exp(root))
     wider = with_scatter(between)
-    return Settled(wider, wider.best(), first.scatter, between, trend)
+    found = wider.best()
+    return replace(first, search=wider, best=found, between_speeds=between, trend=trend)
 
 
 def closely(coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]:
@@ -561,8 +632,7 @@ def _separate(points: Array, misfits: Array) -> Array:
 class _Shapes:
     """Residuals of travels, normalised by their uncertainty."""
 
-    def __init__(self, series: RateSeries, model: Table):
-        self._model = model
+    def __init__(self, series: RateSeries):
         self._log, self._white = [], []
         # the theory's error is fully correlated within a curve, at half its size
         error = series.theory_error**2 / 2
@@ -574,7 +644,7 @@ class _Shapes:
             self._log.append(np.log(value))
             self._white.append(np.linalg.inv(np.linalg.cholesky(spread)))
 
-    def __call__(self, values: Mapping[str, float]) -> Array:
-        found = np.log(self._model.travels(values))
+    def __call__(self, travels: Array) -> Array:
+        found = np.log(travels)
         rows = zip(self._white, found, self._log, strict=True)
         return np.concatenate([white @ (one - measured) for white, one, measured in rows])

@@ -13,6 +13,7 @@ from viscotack.model.materials.passport_uncertainty import allowed
 from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 
+from .contact_time import PER_DECADE
 from .growth import FoundGrowth
 from .likelihood import EVIDENCE, Interval
 from .rate_series import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
@@ -27,13 +28,16 @@ if TYPE_CHECKING:
 _NAMED = 4  # largest number of tests, or of speeds, that are named one by one
 _LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
 _CHANCE = 0.01  # accepted probability that a series without growth is reported to need it
+_IN_TIME = ("growth of the work of adhesion in a decade of contact time", "")
 _LABELS = {
+    PER_DECADE: _IN_TIME,
     "work_of_adhesion": ("work of adhesion", "J/m2"),
     "equilibrium_gap": ("range of attraction h0", "m"),
     "strengthening": ("strengthening", ""),
     "exponent": ("exponent of growth", ""),
 }
 _EDGE_LABELS = {
+    PER_DECADE: _IN_TIME,
     "work_of_adhesion": ("work of adhesion w", "J/m2"),
     "reference_speed": ("reference speed v0", "m/s"),
     "exponent": ("exponent n", ""),
@@ -50,6 +54,7 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
         said += _of_one(label, unit, fit.best.values[name], ends, fit.level)
     if fit.growth is not None:
         said.append(_of_growth(fit.growth))
+    said += _of_time(fit)
     if not allowed(fit.passport):
         said.append("the material is assumed exact, because its uncertainty is unknown")
     return [
@@ -72,7 +77,7 @@ def misfit_words(fit: SeriesFit) -> str:
     """Return a sentence on tests that the fit does not describe."""
     off = fit.given.force / np.array(fit.forces) - 1
     worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
-    tests = ", ".join(f"{fit.series[i].at} {off[i]:+.0%}" for i in worst)
+    tests = ", ".join(f"{_test(fit, i)} {off[i]:+.0%}" for i in worst)
     off_by = (
         f"the fit does not describe these tests: measured over fitted forces are off by {tests}, "
         f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory"
@@ -105,10 +110,56 @@ def edge_words(fit: EdgeFit) -> list[str]:
         "energy of the edge w (1 + (v/v0)^n) at its speed v, on an elastic solid with a contact "
         f"modulus of {modulus}, to whose cube root v0 is proportional",
         *said,
+        *_of_time(fit),
         *_of_scatter(fit),
         f"criterion {fit.criterion:.1f} (BIC; of the same tests the smaller is better)",
         *(remark for one in fit.series for remark in one.remarks),
     ]
+
+
+def _test(fit: SeriesFit, number: int) -> str:
+    """Return speed of a test, and its time in contact where that counts."""
+    one = fit.series[number]
+    if fit.ageing is None or one.contact_time is None:
+        return one.at
+    return f"{one.at} after {readable(one.contact_time, 's', digits=2)}"
+
+
+def _of_time(fit: SeriesFit) -> list[str]:
+    """Return sentences on the growth with time in contact, or on what hides it."""
+    found, times = fit.ageing, fit.given.contact_times
+    if fit.given.confounded:
+        return [
+            f"times in contact are {_times(times)}, but equal at each speed: a growth of the "
+            "interface with time is not separate from that with speed, and is taken as none; other "
+            "dwells at the slowest speed would separate them"
+        ]
+    if found is None:
+        return []
+    labels = _EDGE_LABELS if "reference_speed" in fit.best.values else _LABELS
+    middle = readable(fit.given.middle_time, "s", digits=2)
+    said = [
+        f"the work of adhesion is that after {middle} in contact, the middle of {_times(times)}; "
+        f"without growth in time the misfit is {found.better_by:.1f} larger, with a probability of "
+        f"{found.chance:.1%} by chance"
+    ]
+    if fit.given.work_of_adhesion is not None:
+        said.append("the known work of adhesion is taken as that after this time")
+    if together := found.together:
+        others = " and ".join(labels[name][0] for name in together)
+        said.append(
+            f"growth with time is hardly separate from {others}: longer and shorter dwells at the "
+            "slowest and the fastest speed would separate them"
+        )
+    if "reference_speed" in fit.best.values:
+        said.append("without a spectrum it may be growth by a solid that relaxes in the dwells")
+    if rows := fit.unexplained:
+        said.append(f"not explained by one interface: {', '.join(_test(fit, i) for i in rows)}")
+    return said
+
+
+def _times(times: Array) -> str:
+    return readable(float(times.min()), "s", digits=2, to=float(times.max()))
 
 
 def _of_edge(fit: RateSeriesFit) -> list[str]:
@@ -133,6 +184,11 @@ def forecast_words(fit: RateSeriesFit, forecast: RateForecast, crack_speed: Arra
 def series_forecast_words(fit: SeriesFit, forecast: RateForecast, rests_on: str) -> list[str]:
     """Return sentences on a forecast by any model; `rests_on` is what it needs elsewhere."""
     said, measured, speed = [], fit.given.speed, forecast.speed
+    if forecast.contact_time is not None:
+        said.append(
+            f"forces are those after {_times(forecast.contact_time)} in contact; that of the tests "
+            f"is {_times(fit.given.contact_times)}"
+        )
     if speed.min() < 0.5 * measured.min() or speed.max() > 2 * measured.max():
         said.append(
             f"measured speeds range from {_speed(measured.min(), measured.max())}; beyond them the "

@@ -32,6 +32,7 @@ _SCALES = {
     "reference_speed": ("reference speed $v_0$ [µm/s]", 1e6),
     "strengthening": ("strength over that at rest", 1.0),
     "exponent": ("exponent $n$", 1.0),
+    "growth_per_decade": ("growth in a decade of contact time", 1.0),
 }
 _SHOWN = 40  # largest number of drawn curves of one speed
 _CURVES = 6  # largest number of speeds with a curve
@@ -232,6 +233,8 @@ def _band(axes: Any, forecast: RateForecast) -> None:
         where += f", {forecast.temperature - 273.15:.3g} C"
     if forecast.dwell is not None:
         where += f", {readable(forecast.dwell, 's', digits=3)} of dwell"
+    elif forecast.contact_time is not None:
+        where += f", {readable(forecast.contact_time[0], 's', digits=2)} in contact"
     if len(x) == 1:
         # a line and a band through one speed have no width
         sides = [middle - low, high - middle]

@@ -150,7 +150,8 @@ class IdentifyRates(Series, OnLayer):
     The steady-crack contact model is fitted to the true speed and pull-off force of every cycle;
     forces of tests for which it does not hold are simulated.
     The intervals include the uncertainty of the material in the passport. The answer states which
-    parameters the data do not determine, and at which speeds the model does not fit. With --growth
+    parameters the data do not determine, and which tests the model does not fit. Where tests at one
+    speed have several dwells, the growth with contact time is fitted too. With --growth
     an interface that grows with speed is fitted. A sample of known thickness is given by
     --thickness, with --bonded if it does not slide; its tests need a stiff machine, and neither
     --curves nor --growth.
@@ -339,6 +340,7 @@ def _written(found: Identified, caller: Caller) -> Callable[["Target"], None]:
 # What the sentences of a fitted series say.
 _SAID = ("work_of_adhesion_J_m2", "equilibrium_gap_m", "reference_speed_m_s", "exponent")
 _SAID += ("intervals", "solutions", "describes_tests", "criterion", "criterion_of_edge_law")
+_SAID += ("ageing",)
 
 
 def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:

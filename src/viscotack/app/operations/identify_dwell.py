@@ -15,7 +15,8 @@ class IdentifyDwell(Rig):
     All tests are slow pulls of one sphere at one speed, so that the solid is relaxed and the force
     of the pull-off is proportional to the work of adhesion (JKR). The answer states the work, its
     growth in a decade of contact time and, if the data determine it, the law that an interface file
-    takes. A solid whose modulus relaxes between the dwells is refused.
+    takes. A solid whose modulus relaxes between the dwells is refused. Tests of several speeds go
+    to `viscotack identify rates` or `viscotack identify edge`.
 
     Example: viscotack identify dwell lens_dwell_*.csv --material pdms-10-1 --radius "5.19 mm"
     --plot dwell.png

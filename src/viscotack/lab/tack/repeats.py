@@ -26,7 +26,7 @@ others at its speed counts little, and is named.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from math import erfc, exp, pi, sqrt
 
@@ -73,6 +73,13 @@ class Repeats:
     scatter: float
     freedom: int
     far: tuple[tuple[int, ...], ...]
+
+    def less(self, fitted: int) -> "Repeats":
+        """Return these repeats with a number of degrees of freedom that a fit has taken."""
+        left = self.freedom - fitted
+        if left <= 0:
+            return replace(self, scatter=0.0, freedom=0)
+        return replace(self, scatter=self.scatter * sqrt(self.freedom / left), freedom=left)
 
     def uncertainty(self, tests: int) -> float:
         """Return the relative standard uncertainty of a mean of a number of tests.

@@ -209,6 +209,7 @@ def _series_record(fit: Any) -> dict[str, Any]:
     return {
         **read(fit, "intervals", "scatter", "trend", "criterion"),
         "scatter_between_speeds": fit.between_speeds,
+        "ageing": _ageing_record(fit),
         "describes_tests": not fit.misfit,
         "solutions": [one.values for one in fit.solutions],
         "series": [
@@ -219,6 +220,7 @@ def _series_record(fit: Any) -> dict[str, Any]:
                 "pull_off_force_N": one.force.value,
                 "pull_off_force_N_uncertainty": one.force.uncertainty,
                 "fitted_N": force,
+                **({} if fit.ageing is None else read(one, "contact_time_s")),
             }
             for one, force in zip(fit.series, fit.forces, strict=True)
         ],
@@ -234,6 +236,7 @@ def forecast_rows(forecast: Any) -> list[dict[str, float]]:
         "high_N": forecast.high,
         "low_of_one_test_N": forecast.low_of_one,
         "high_of_one_test_N": forecast.high_of_one,
+        "contact_time_s": forecast.contact_time,
     }
     return rows_of({name: x for name, x in columns.items() if x is not None})
 
@@ -243,6 +246,20 @@ def _layer_record(body: Any) -> dict[str, Any] | None:
     if body.word != "layer":
         return None
     return read(body, "thickness_m", "poisson_ratio") | {"base": body.base.word}
+
+
+def _ageing_record(fit: Any) -> dict[str, Any] | None:
+    """Return the growth with the time in contact; None where all times are equal."""
+    found = fit.ageing
+    if found is None:
+        return {"separate": False} if fit.given.confounded else None
+    return {
+        "growth_per_decade": fit.best.values["growth_per_decade"],
+        **read(fit.given, "middle_time_s"),
+        **read(found, "better_by", "chance", "correlation"),
+        "separate": not found.together,
+        "unexplained": fit.unexplained,
+    }
 
 
 def _growth_record(found: Any) -> dict[str, Any]:

@@ -129,6 +129,7 @@ _PARAMETERS = {
     "equilibrium_gap": ("range of attraction h₀", "_m"),
     "strengthening": ("growth of strength", ""),
     "exponent": ("exponent of growth", ""),
+    "growth_per_decade": ("growth of the work in a decade of contact time", ""),
 }
 
 
