@@ -1,7 +1,6 @@
 """Routes of the API and of the page, and the static files of the page."""
 
 import asyncio
-from collections.abc import Callable
 from importlib.resources import files as files_of
 from inspect import cleandoc
 from typing import Annotated, Any
@@ -11,24 +10,14 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 
-from viscotack.app.engine import page_tasks
+from viscotack.app.engine import page
 from viscotack.app.engine.jobs import Engine, Job, TooMany, Unknown
 from viscotack.app.engine.lane import Defect
 from viscotack.app.operations import operations
 from viscotack.app.operations.request import Request, described, refusal, summary
 from viscotack.errors import InputError
 
-from .models import (
-    Answer,
-    AskedQuick,
-    AskedState,
-    AskedTheory,
-    AskedVerdict,
-    JobAnswer,
-    Refusal,
-    SentFiles,
-    Strict,
-)
+from .models import Answer, JobAnswer, Refusal, SentFiles
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
@@ -205,13 +194,13 @@ def _page(router: APIRouter, engine: Engine) -> None:
     @router.get("/api/forms", tags=["page"])
     async def forms() -> Answer:
         """Return the input forms, the published materials and example cases."""
-        return Answer(**await engine.page(page_tasks.ask_forms, {}))
+        return Answer(**await engine.ask(page.Forms(), lane="page"))
 
-    for name, (kind, task) in _TASKS.items():
-        _page_task(router, engine, name, kind, task)
+    for kind in page.REQUESTS:
+        _of_page(router, engine, kind)
 
     @router.get("/", include_in_schema=False)
-    async def page() -> Response:
+    async def index() -> Response:
         return _file("index.html")
 
     @router.get("/api/docs", include_in_schema=False)
@@ -223,22 +212,14 @@ def _page(router: APIRouter, engine: Engine) -> None:
         return _file(name)
 
 
-# Tasks of the page: what each takes, and its function.
-_TASKS: dict[str, tuple[type[Strict], Callable[..., dict[str, Any]]]] = {
-    "state": (AskedState, page_tasks.ask_state),
-    "quick": (AskedQuick, page_tasks.ask_quick),
-    "moduli": (AskedVerdict, page_tasks.ask_moduli),
-    "verdict": (AskedVerdict, page_tasks.ask_verdict),
-    "theory": (AskedTheory, page_tasks.ask_theory),
-}
-
-
-def _page_task(router: APIRouter, engine: Engine, name: str, kind: type[Strict], task: Any) -> None:
+def _of_page(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     async def route(asked: Any) -> Answer:
-        return Answer(**await engine.page(task, asked.model_dump()))
+        return Answer(**await engine.ask(asked, lane="page"))
 
     route.__annotations__["asked"] = kind
-    router.post(f"/api/{name}", tags=["page"], summary=name, description=task.__doc__)(route)
+    router.post(f"/api/{kind.word}", tags=["page"], summary=kind.word, description=kind.__doc__)(
+        route
+    )
 
 
 # What the page is made of: the requested names are looked up here, and not in a folder.

@@ -7,7 +7,7 @@ import asyncio
 import json
 import secrets
 import zlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -17,7 +17,7 @@ from typing import Any
 from viscotack.app.operations.request import Request, harmless_name
 from viscotack.errors import InputError
 
-from . import operating, page_tasks
+from . import operating, page
 from .lane import Defect, Lane
 
 # Largest number of finished jobs that are kept, and for how long [s].
@@ -158,7 +158,7 @@ class Engine:
     async def begin(self) -> None:
         """Start a process of each lane, so that no simulation holds up a slider."""
         self._lanes = {
-            "page": Lane(2, page_tasks.warm, self._own),
+            "page": Lane(2, page.warm, self._own),
             "ask": Lane(2, operating.warm, self._own, nice=4),
             "work": Lane(self.limits.workers, operating.warm, self._own, nice=2),
         }
@@ -173,15 +173,12 @@ class Engine:
         for upload in self._uploads.values():
             upload.folder.cleanup()
 
-    async def page(self, task: Callable[..., Any], *given: Any) -> dict[str, Any]:
-        """Return the answer of a task of the page."""
-        return await self._lanes["page"].run(task, *given, seconds=self.limits.ask_time)
-
-    async def ask(self, asked: Request, outputs: Sequence[str], files: str) -> dict[str, Any]:
+    async def ask(
+        self, asked: Request, outputs: Sequence[str] = (), files: str = "", lane: str = "ask"
+    ) -> dict[str, Any]:
         """Return the answer of a request."""
-        given = asked, tuple(outputs), self._folder(files)
-        lane = self._lanes["ask"]
-        return await lane.run(operating.run_request, *given, seconds=self.limits.ask_time)
+        run, given = self._lanes[lane].run, (asked, tuple(outputs), self._folder(files))
+        return await run(operating.run_request, *given, seconds=self.limits.ask_time)
 
     def keep(self, files: Iterable[tuple[str, bytes]]) -> str:
         """Keep files that were sent, and return the name by which requests refer to them."""

@@ -2,15 +2,13 @@
 
 import base64
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from viscotack.app.operations.parts.json_data import plain
 from viscotack.app.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 from viscotack.errors import InputError
-
-from .page_tasks import Tell
 
 # The curve of a simulation as it grows.
 _POINTS = "points"
@@ -28,7 +26,12 @@ def warm() -> None:
 
 
 def run_request(
-    asked: Request, outputs: tuple[str, ...], folder: str, *, tell: Tell, also: tuple[Any, ...]
+    asked: Request,
+    outputs: tuple[str, ...],
+    folder: str,
+    *,
+    tell: Callable[[dict[str, Any]], None],
+    also: tuple[Any, ...],
 ) -> dict[str, Any]:
     """Answer a request; return the record of the answer, with other outputs in ``beside``.
 
