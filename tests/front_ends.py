@@ -137,13 +137,12 @@ def write_rows(rows):
 
 def problem_flags(option, value):
     """Return what states a problem on the command line: words of the command, and flags."""
-    case = ["case"] if option.spelling == "commands" else []
     if not isinstance(value, dict):
-        return case, [value]
+        return [], [value]
     answers = {name: each for name, each in value.items() if name not in ("indenter", "case")}
     flags = [part for n, v in answers.items() for part in (f"--{n.replace('_', '-')}", v)]
     if "case" in value:
-        return case, [value["case"], *flags]
+        return [], [value["case"], *flags]
     return ([] if option.spelling == "flags" else [value["indenter"]]), flags
 
 

@@ -230,8 +230,8 @@ class Contact(_Read):
     indenters : tuple of str
         Indenters that can be stated by flags.
     spelling : str
-        On the command line the indenter is a subcommand ("commands"), an argument ("word") or
-        follows from the flags ("flags"), or only a case file is accepted ("case").
+        On the command line the indenter is an argument ("word") or follows from the flags
+        ("flags"), or only a case file is accepted ("case").
     whole : bool
         Whether a case file with any indenter is accepted.
     rough : bool
@@ -251,7 +251,7 @@ class Contact(_Read):
 
     argument: bool = field(default=True, kw_only=True)
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
-    spelling: Literal["flags", "commands", "word", "case"] = field(default="flags", kw_only=True)
+    spelling: Literal["flags", "word", "case"] = field(default="flags", kw_only=True)
     whole: bool = field(default=True, kw_only=True)
     rough: bool = field(default=False, kw_only=True)
     table: str = field(default="", kw_only=True)
@@ -488,8 +488,6 @@ class Request(BaseModel):
         Whether it accepts user-defined laws, materials, shapes or observables.
     local : str
         Why it is not available over HTTP; "" where it is.
-    helps : mapping
-        Help text of each command, if the operation has several.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -498,7 +496,6 @@ class Request(BaseModel):
     outputs: ClassVar[tuple[Output, ...]] = ()
     takes_own: ClassVar[bool] = False
     local: ClassVar[str] = ""
-    helps: ClassVar[Mapping[str, str]] = {}
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the answer; implementations import numerical modules here, not on top."""
