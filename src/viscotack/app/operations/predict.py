@@ -189,7 +189,7 @@ class Predict(Request):
             return predict_file(caller.file(self.cases), self.confidence, caller.tell)
         from viscotack.prediction.tiers import SOON
 
-        from .parts.predict_changes import predict_changes
+        from .parts.predict_table import predict_changes
 
         assert self.cases is not None, "checked before"
         return predict_changes(
