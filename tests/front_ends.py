@@ -19,8 +19,8 @@ from viscotack.app.api import application
 from viscotack.app.cli import main
 from viscotack.app.engine.jobs import Engine
 from viscotack.app.operations import ask, operation
+from viscotack.app.operations.options import Contact, Rows, flag_of, option_of
 from viscotack.app.operations.parts.json_data import plain
-from viscotack.app.operations.request import Contact, Rows, flag_of, option_of
 from viscotack.files.toml import toml_value
 from viscotack.model.problem.nouns import own_nouns
 

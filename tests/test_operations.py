@@ -21,7 +21,8 @@ from front_ends import (
 from stated import PUNCH, SPHERE
 from viscotack.app.operations import operation, operations
 from viscotack.app.operations.flags import FLAGS
-from viscotack.app.operations.request import Caller, Contact, request_of
+from viscotack.app.operations.options import Contact
+from viscotack.app.operations.request import Caller, request_of
 from viscotack.app.operations.statement import statement
 from viscotack.app.operations.study import read_study, study_text
 from viscotack.errors import InputError

@@ -1,11 +1,10 @@
-"""Routes of the API and of the page, and the static files of the page."""
+"""Routes of the API and of the page."""
 
 import asyncio
-from importlib.resources import files as files_of
 from inspect import cleandoc
 from typing import Annotated, Any
 
-from fastapi import APIRouter, FastAPI, Path, Query, Response, UploadFile
+from fastapi import APIRouter, FastAPI, Path, Query, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
@@ -21,13 +20,6 @@ from .models import Answer, JobAnswer, Refusal, SentFiles
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
-_KINDS = {
-    "html": "text/html; charset=utf-8",
-    "css": "text/css; charset=utf-8",
-    "js": "text/javascript; charset=utf-8",
-    "svg": "image/svg+xml",
-    "toml": "text/plain; charset=utf-8",
-}
 _REFUSED: dict[int | str, dict[str, Any]] = {
     status: {"model": Refusal, "description": words}
     for status, words in (
@@ -199,18 +191,6 @@ def _page(router: APIRouter, engine: Engine) -> None:
     for kind in page.REQUESTS:
         _of_page(router, engine, kind)
 
-    @router.get("/", include_in_schema=False)
-    async def index() -> Response:
-        return _file("index.html")
-
-    @router.get("/api/docs", include_in_schema=False)
-    async def docs() -> Response:
-        return _file("docs.html")
-
-    @router.get("/page/{name}", include_in_schema=False)
-    async def part(name: str) -> Response:
-        return _file(name)
-
 
 def _of_page(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     async def route(asked: Any) -> Answer:
@@ -219,22 +199,4 @@ def _of_page(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     route.__annotations__["asked"] = kind
     router.post(f"/api/{kind.word}", tags=["page"], summary=kind.word, description=kind.__doc__)(
         route
-    )
-
-
-# What the page is made of: the requested names are looked up here, and not in a folder.
-_PARTS = {
-    part.name: part
-    for part in files_of("viscotack.app.page").iterdir()
-    if part.name.rpartition(".")[2] in _KINDS
-}
-
-
-def _file(name: str) -> Response:
-    if name not in _PARTS:
-        return Response("there is no such file", 404, media_type="text/plain")
-    kind = _KINDS[name.rpartition(".")[2]]
-    # never cached, so that the page and the server have the same version
-    return Response(
-        _PARTS[name].read_bytes(), media_type=kind, headers={"cache-control": "no-cache"}
     )

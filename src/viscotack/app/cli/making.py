@@ -12,20 +12,18 @@ from typer.main import get_command
 
 from viscotack.app.operations import operation
 from viscotack.app.operations.flags import OF_FILE, flags_of
-from viscotack.app.operations.request import (
+from viscotack.app.operations.options import (
     Contact,
     Number,
     Option,
-    Request,
     Rows,
     choices_of,
     flag_of,
     is_many,
     option_of,
-    options,
     quoted,
-    request_of,
 )
+from viscotack.app.operations.request import Request, options, request_of
 from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input

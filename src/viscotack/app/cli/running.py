@@ -9,7 +9,8 @@ from typing import Any
 
 import typer
 
-from viscotack.app.operations.request import Caller, Output, Request, answered
+from viscotack.app.operations.options import Output
+from viscotack.app.operations.request import Caller, Request, answered
 from viscotack.files.text import harmless
 
 from .writing import finish

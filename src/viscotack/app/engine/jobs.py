@@ -4,9 +4,7 @@ It belongs to one event loop. All computations run in the processes of :mod:`.la
 """
 
 import asyncio
-import json
 import secrets
-import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -91,6 +89,8 @@ class Job:
         Of the curve that grows, and of the table.
     error, field : str
         Why it has no answer, and the option that is wrong.
+    answer : dict or None
+        What came out.
     """
 
     id: str
@@ -103,18 +103,13 @@ class Job:
     ended: float | None = None
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
-    _answer: bytes = b""
+    answer: dict[str, Any] | None = None
     field: str = ""
 
     @property
     def over(self) -> bool:
         """Whether nothing more will come of it."""
         return self.ended is not None
-
-    @property
-    def answer(self) -> dict[str, Any] | None:
-        """What came out, None while there is nothing."""
-        return json.loads(zlib.decompress(self._answer)) if self._answer else None
 
     def tell(self, told: dict[str, Any]) -> None:
         """Store a progress message of the task."""
@@ -130,10 +125,8 @@ class Job:
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
         """Store the outcome."""
-        self.state, self.error, self.ended = state, error, monotonic()
-        if answer is not None:
-            self.share = 1.0
-            self._answer = zlib.compress(json.dumps(answer).encode(), 1)
+        self.state, self.error, self.ended, self.answer = state, error, monotonic(), answer
+        self.share = self.share if answer is None else 1.0
         self.changed()
 
 
@@ -153,6 +146,7 @@ class Engine:
         self._own = tuple(own)
         self._jobs: dict[str, Job] = {}
         self._uploads: dict[str, Upload] = {}
+        self._nothing = TemporaryDirectory(prefix="viscotack-")
         self._lanes: dict[str, Lane] = {}
 
     async def begin(self) -> None:
@@ -170,8 +164,8 @@ class Engine:
         await asyncio.gather(*(self._stop(job) for job in self._jobs.values()))
         for lane in self._lanes.values():
             lane.end()
-        for upload in self._uploads.values():
-            upload.folder.cleanup()
+        for folder in (self._nothing, *(upload.folder for upload in self._uploads.values())):
+            folder.cleanup()
 
     async def ask(
         self, asked: Request, outputs: Sequence[str] = (), files: str = "", lane: str = "ask"
@@ -195,9 +189,9 @@ class Engine:
         return id
 
     def _folder(self, files: str) -> str:
-        """Return the folder of files that were sent, "" without."""
+        """Return the folder of files that were sent, an empty one without."""
         if not files:
-            return ""
+            return self._nothing.name
         if files not in self._uploads:
             raise Unknown("there are no such files; they have expired, send them again")
         self._uploads[files].used = monotonic()

@@ -3,7 +3,7 @@
 import base64
 import io
 from collections.abc import Callable, Sequence
-from pathlib import Path
+from contextlib import chdir
 from typing import Any
 
 from viscotack.app.operations.parts.json_data import plain
@@ -37,37 +37,17 @@ def run_request(
 
     `outputs` are names of files, "words" or "drawn"; `folder` has the files that were sent.
     """
-    # paths on the server are removed from messages
-    shown = f"{folder}/" if folder else ""
+    wanted = _wanted(type(asked), outputs)
+    caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, sent=True)
     try:
-        wanted = _wanted(type(asked), outputs)
-        caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, (), Path(folder), True)
-        answer = answered(asked, caller)
-        # files first: what an answer counts while it writes them is in its record
-        beside = _beside(type(asked), answer, wanted)
-        return _without(shown, _record(answer) | beside)
-    except InputError as error:
-        raise type(error)(_without(shown, str(error)), field=error.field) from None
+        # so that files have their names in answers, and not the place where they lie
+        with chdir(folder):
+            answer = answered(asked, caller)
+            return answer.record() | _beside(type(asked), answer, wanted)
     except FileNotFoundError as error:
-        raise InputError(f"there is no file {_without(shown, str(error.filename))}") from None
+        raise InputError(f"there is no file {error.filename}") from None
     except OSError as error:
-        raise InputError(_without(shown, str(error))) from None
-
-
-def _without(folder: str, value: Any) -> Any:
-    """Return an answer in which files have their names, and not the place where they lay."""
-    if not folder:
-        return value
-    if isinstance(value, dict):
-        return {key: _without(folder, entry) for key, entry in value.items()}
-    if isinstance(value, list):
-        return [_without(folder, entry) for entry in value]
-    return value.replace(folder, "") if isinstance(value, str) else value
-
-
-def _record(answer: Answer) -> dict[str, Any]:
-    found = answer.record()
-    return found if isinstance(found, dict) else {"answer": found}
+        raise InputError(str(error)) from None
 
 
 def _wanted(kind: type[Request], outputs: Sequence[str]) -> frozenset[str]:

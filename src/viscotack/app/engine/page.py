@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
+from viscotack.app.operations.options import contact, option
 from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.app.operations.parts.json_data import drawn
 from viscotack.app.operations.parts.library import library
-from viscotack.app.operations.request import Answer, Caller, Request, contact, option
+from viscotack.app.operations.request import Answer, Caller, Request
 from viscotack.app.operations.theory_punch import pad_of
 from viscotack.errors import InputError, OutOfRange
 from viscotack.files.toml import parse_toml

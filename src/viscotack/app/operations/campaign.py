@@ -7,18 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from viscotack.errors import InputError
 
 from .flags import INDENTERS
-from .request import (
-    Answer,
-    Caller,
-    File,
-    Output,
-    Request,
-    contact,
-    file_name,
-    number,
-    option,
-    switch,
-)
+from .options import File, Output, contact, file_name, number, option, switch
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress, Store

@@ -7,9 +7,10 @@ from typing import Any, ClassVar
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
+from .options import csv_file, file_name, option, picture
 from .parts.record_words import read
 from .predict import OF_METHOD
-from .request import Answer, Caller, Request, csv_file, file_name, option, picture
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
 

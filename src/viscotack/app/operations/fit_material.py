@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 
+from .options import file_name, main_file, number, option, picture, quoted
 from .parts.dma import Dma
 from .parts.shifting import Shifting
-from .request import Answer, Caller, file_name, main_file, number, option, picture, quoted
+from .request import Answer, Caller
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport

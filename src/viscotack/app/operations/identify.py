@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
 from viscotack.errors import InputError
 
+from .options import Number, main_file, named, number, option, picture, switch
 from .parts.layer import OnLayer
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, Number, main_file, named, number, option, picture, switch
+from .request import Answer, Caller
 from .simulate import HowLong
 
 if TYPE_CHECKING:

@@ -8,20 +8,9 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
+from .options import main_file, named, number, option, quoted, switch, text, two_of
 from .parts.solid import APassport, passport_of
-from .request import (
-    Answer,
-    Caller,
-    Request,
-    main_file,
-    named,
-    number,
-    option,
-    quoted,
-    switch,
-    text,
-    two_of,
-)
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.model.materials.conversion import PronyForm

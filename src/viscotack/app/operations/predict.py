@@ -9,20 +9,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 
+from .options import Output, contact, csv_file, number, picture, quoted, rows, switch
 from .parts.record_words import units_of
-from .request import (
-    Answer,
-    Caller,
-    Output,
-    Request,
-    contact,
-    csv_file,
-    number,
-    picture,
-    quoted,
-    rows,
-    switch,
-)
+from .request import Answer, Caller, Request
 from .simulate import HowLong
 
 if TYPE_CHECKING:

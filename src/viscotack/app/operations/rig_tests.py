@@ -4,9 +4,10 @@ from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
+from .options import Output, csv_file, number, picture
 from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
-from .request import Answer, Caller, Output, csv_file, number, picture
+from .request import Answer, Caller
 
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
 _LARGEST_WORK = 10.0

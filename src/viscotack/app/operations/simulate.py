@@ -10,20 +10,9 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
 
 from .flags import INDENTERS
+from .options import Option, Output, contact, csv_file, file_name, number_of, picture, switch
 from .parts.record_words import units_of
-from .request import (
-    Answer,
-    Caller,
-    Option,
-    Output,
-    Request,
-    contact,
-    csv_file,
-    file_name,
-    number_of,
-    picture,
-    switch,
-)
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.result import Result

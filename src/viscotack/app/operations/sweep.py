@@ -10,8 +10,9 @@ from viscotack.model.problem import RoughCase
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
+from .options import contact, csv_file, rows
 from .parts.record_words import units_of
-from .request import Answer, Caller, Request, contact, csv_file, rows
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:

@@ -10,20 +10,10 @@ import numpy as np
 from viscotack.errors import InputError
 
 from .flags import FLAGS
+from .options import Contact, file_name, named, number, option, option_of, picture, switch
 from .parts.record_words import read
 from .parts.solid import Reduced
-from .request import (
-    Answer,
-    Caller,
-    Contact,
-    file_name,
-    named,
-    number,
-    option,
-    option_of,
-    picture,
-    switch,
-)
+from .request import Answer, Caller
 from .statement import statement
 
 if TYPE_CHECKING:

@@ -10,21 +10,10 @@ from viscotack.units import is_number, readable
 
 from .flags import INDENTERS
 from .forecast import fitted
+from .options import contact, csv_file, file_name, named, number, option, picture, text
 from .parts.record_words import read
 from .parts.solid import passport_of
-from .request import (
-    Answer,
-    Caller,
-    Request,
-    contact,
-    csv_file,
-    file_name,
-    named,
-    number,
-    option,
-    picture,
-    text,
-)
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.prediction.uncertainty import Uncertainty

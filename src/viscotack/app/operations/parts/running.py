@@ -119,8 +119,6 @@ def _energy(result: Result) -> dict[str, Any] | None:
     return {
         "unit": kind.energy.text if scales is None else kind.energy.si,
         "series": {name: x for name, x in changes.items() if name == "drive" or any(x)},
-        "mode_time": drawn(energy.mode_time * (1.0 if scales is None else scales.time)),
-        "mode_heat": drawn(energy.mode_heat * factor),
     }
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-from ..request import Caller, Request, file_name, number, option, quoted, text, two_of
+from ..options import file_name, number, option, quoted, text, two_of
+from ..request import Caller, Request
 
 _SEVERAL = 3.0  # K: a chamber holds its temperature better
 _MOVES = ("none", "auto", "free")
