@@ -103,13 +103,11 @@ class FitMaterial(Dma, Shifting):
         from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
 
         measured = self.measured(tuple(caller.file(each) for each in self.files))
-        if isinstance(measured, FrequencySweeps):
-            data, shift, cautions = self.swept(measured, caller)
-        else:
+        if not isinstance(measured, FrequencySweeps):
             first = measured[0] if isinstance(measured, tuple) else measured
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
             self._refuse_of_sweeps(f"for the {found} test in the file")
-            data, shift, cautions = self.stepped(measured, caller)
+        data, shift, cautions = self.at_one_temperature(measured, caller)
         known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
         report = fit(
             data,
