@@ -65,7 +65,7 @@ ASKED = {
     "theory jkr": [JKR],
     "theory maugis": [JKR | {"strength": "0.1 MPa"}],
     "theory persson-brener": [CRACK],
-    "theory punch": [{"case": "pad.toml", "stress": "60 kPa"}],
+    "theory punch": [{"problem": "pad.toml", "stress": "60 kPa"}],
     "theory steady-crack": [CRACK | {"law": "exponential:0.25"}],
 }
 # The same of those that take seconds.

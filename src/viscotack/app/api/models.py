@@ -39,8 +39,6 @@ class JobAnswer(BaseModel):
         ),
     ]
     points_from: int
-    rows: Annotated[list[dict[str, Any]], Field(description="Of a sweep, from `rows_from` on.")]
-    rows_from: int
     error: Annotated[str, Field(description="Why there is no answer; empty else.")]
     field: Annotated[str, Field(description="The option that the error names; empty else.")]
     answer: Annotated[

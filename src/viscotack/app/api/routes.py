@@ -95,44 +95,30 @@ def _jobs(router: APIRouter, engine: Engine) -> None:
     async def job(
         id: Id,
         points_from: Annotated[int, Query(ge=0, le=10**9, description="First point.")] = 0,
-        rows_from: Annotated[int, Query(ge=0, le=10**9, description="First row.")] = 0,
         wait: Annotated[
             float, Query(ge=0, le=_LONGEST_WAIT, description="Wait for news so long [s].")
         ] = 0.0,
     ) -> JobAnswer:
         """Ask how far a job is, and for its answer when it is done."""
         found = engine.job(id)
-        known = len(found.points) > points_from or len(found.rows) > rows_from
-        if wait and not found.over and not known:
+        if wait and not found.over and len(found.points) <= points_from:
             try:
                 await asyncio.wait_for(found.news.wait(), wait)
             except TimeoutError:
                 pass  # return the unchanged state
-        return _told(found, points_from, rows_from)
+        return _told(found, points_from)
 
     @router.delete("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
     async def cancel(id: Id) -> JobAnswer:
-        """End a job, and forget it; its curve, rows and answer are not sent again."""
+        """End a job, and forget it; its curve and answer are not sent again."""
         job = await engine.cancel(id)
-        return _told(job, len(job.points), len(job.rows), whole=False)
+        return _told(job, len(job.points), whole=False)
 
 
-def _told(job: Job, points_from: int = 0, rows_from: int = 0, *, whole: bool = True) -> JobAnswer:
-    return JobAnswer.model_validate(
-        {
-            "id": job.id,
-            "kind": job.kind,
-            "state": job.state,
-            "share": min(job.share, 1.0),
-            "points": job.points[points_from:],
-            "points_from": points_from,
-            "rows": job.rows[rows_from:],
-            "rows_from": rows_from,
-            "error": job.error,
-            "field": job.field,
-            "answer": job.answer if whole else None,
-        }
-    )
+def _told(job: Job, points_from: int = 0, *, whole: bool = True) -> JobAnswer:
+    told = {"points": job.points[points_from:], "points_from": points_from}
+    told["answer"] = job.answer if whole else None
+    return JobAnswer.model_validate(vars(job) | told)
 
 
 def refusals(app: FastAPI) -> None:

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import monotonic
 from typing import Any
 
 from viscotack.app.operations.request import Request, harmless_name
@@ -18,8 +17,8 @@ from viscotack.errors import InputError
 from . import operating, page
 from .lane import Defect, Lane
 
-# Largest number of finished jobs that are kept, and for how long [s].
-_KEPT, _KEPT_FOR = 64, 900.0
+# Largest number of finished jobs, and of sent files, that are kept.
+_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -63,14 +62,6 @@ class Unknown(InputError):
     """No job, or no files, have this id."""
 
 
-@dataclass
-class Upload:
-    """Files that were sent, in a folder of their own."""
-
-    folder: TemporaryDirectory[str]
-    used: float = field(default_factory=monotonic)
-
-
 @dataclass(eq=False)
 class Job:
     """A long-running operation, and its progress.
@@ -85,8 +76,8 @@ class Job:
         "queued", "running", "done", "refused", "failed" or "cancelled".
     share : float
         Of the work that is done.
-    points, rows : list
-        Of the curve that grows, and of the table.
+    points : list
+        Of the curve that grows.
     error, field : str
         Why it has no answer, and the option that is wrong.
     answer : dict or None
@@ -98,9 +89,7 @@ class Job:
     state: str = "queued"
     share: float = 0.0
     points: list[Any] = field(default_factory=list)
-    rows: list[Any] = field(default_factory=list)
     error: str = ""
-    ended: float | None = None
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
     answer: dict[str, Any] | None = None
@@ -109,13 +98,12 @@ class Job:
     @property
     def over(self) -> bool:
         """Whether nothing more will come of it."""
-        return self.ended is not None
+        return self.state not in ("queued", "running")
 
     def tell(self, told: dict[str, Any]) -> None:
         """Store a progress message of the task."""
-        self.share = max(self.share, told.get("share", 0.0))
+        self.share = min(max(self.share, told.get("share", 0.0)), 1.0)
         self.points += told.get("points", [])
-        self.rows += told.get("rows", [])
         self.changed()
 
     def changed(self) -> None:
@@ -125,7 +113,7 @@ class Job:
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
         """Store the outcome."""
-        self.state, self.error, self.ended, self.answer = state, error, monotonic(), answer
+        self.state, self.error, self.answer = state, error, answer
         self.share = self.share if answer is None else 1.0
         self.changed()
 
@@ -145,7 +133,7 @@ class Engine:
         self.limits = Limits() if limits is None else limits
         self._own = tuple(own)
         self._jobs: dict[str, Job] = {}
-        self._uploads: dict[str, Upload] = {}
+        self._uploads: dict[str, TemporaryDirectory[str]] = {}
         self._nothing = TemporaryDirectory(prefix="viscotack-")
         self._lanes: dict[str, Lane] = {}
 
@@ -164,7 +152,7 @@ class Engine:
         await asyncio.gather(*(self._stop(job) for job in self._jobs.values()))
         for lane in self._lanes.values():
             lane.end()
-        for folder in (self._nothing, *(upload.folder for upload in self._uploads.values())):
+        for folder in (self._nothing, *self._uploads.values()):
             folder.cleanup()
 
     async def ask(
@@ -185,7 +173,7 @@ class Engine:
                 raise InputError(f"two files are called {path.name}; rename one")
             path.write_bytes(content)
         id = secrets.token_urlsafe(16)
-        self._uploads[id] = Upload(folder)
+        self._uploads[id] = folder
         return id
 
     def _folder(self, files: str) -> str:
@@ -194,8 +182,8 @@ class Engine:
             return self._nothing.name
         if files not in self._uploads:
             raise Unknown("there are no such files; they have expired, send them again")
-        self._uploads[files].used = monotonic()
-        return self._uploads[files].folder.name
+        self._uploads[files] = self._uploads.pop(files)  # the last used is the last
+        return self._uploads[files].name
 
     def start(self, asked: Request, outputs: Sequence[str], files: str) -> Job:
         """Return a job that has been put in the queue; TooMany where it is full."""
@@ -229,10 +217,6 @@ class Engine:
         self._jobs.pop(id, None)
         return job
 
-    def processes(self) -> list[int]:
-        """Return the identifiers of all living processes."""
-        return [pid for lane in self._lanes.values() for pid in lane.processes()]
-
     async def _run(self, job: Job, given: tuple[Request, tuple[str, ...], str]) -> None:
         def begun() -> None:
             job.state = "running"
@@ -259,15 +243,11 @@ class Engine:
             job.close("cancelled", error="it was cancelled")
 
     def _forget(self) -> None:
-        """Forget jobs and files of long ago, and the oldest of many."""
-        now = monotonic()
-        over = sorted((j for j in self._jobs.values() if j.over), key=lambda j: j.ended or 0.0)
-        old = [job for job in over if now - (job.ended or 0.0) > _KEPT_FOR]
-        for job in {*old, *over[: max(len(over) - _KEPT, 0)]}:
-            del self._jobs[job.id]
-        if any(not job.over for job in self._jobs.values()):
-            return  # it may still read its files
-        sent = sorted(self._uploads, key=lambda id: self._uploads[id].used)
-        for id in sent:
-            if now - self._uploads[id].used > _KEPT_FOR or len(self._uploads) > _KEPT:
-                self._uploads.pop(id).folder.cleanup()
+        """Forget the oldest of many jobs and files."""
+        over = [job.id for job in self._jobs.values() if job.over]
+        for id in over[:-_KEPT]:
+            del self._jobs[id]
+        if len(over) < len(self._jobs):
+            return  # one may still read its files
+        for id in [*self._uploads][:-_KEPT]:
+            self._uploads.pop(id).cleanup()

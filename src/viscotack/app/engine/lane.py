@@ -100,10 +100,6 @@ class Lane:
         self._all.clear()
         self._idle.clear()
 
-    def processes(self) -> list[int]:
-        """Return the identifiers of all living processes."""
-        return [x.pid for pool in self._all for x in (pool._processes or {}).values() if x.pid]
-
     def _started(self) -> tuple[Processes, Connection]:
         ours, theirs = FRESH.Pipe(duplex=False)
         pool = Processes(1, _begin, (theirs, *self._given))

@@ -57,7 +57,7 @@ class Sweep(Request):
     time_limit: Limit = 120.0
 
     def answer(self, caller: Caller) -> Answer:
-        """Simulate one case after the other, telling ``share`` and the new ``rows``."""
+        """Simulate one case after the other, telling ``share``."""
         from viscotack.campaign import CaseSettings
         from viscotack.model.problem.changes import changes_of
 

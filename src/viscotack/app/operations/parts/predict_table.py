@@ -175,7 +175,7 @@ def answered_rows(
         one = empty if changes.is_empty(row) else answer(row)
         found.append(one | ({"carried": carried} if carried else {}))
         words = f"{number} of {len(rows)} rows answered"
-        tell({"share": number / len(rows), "rows": found[-1:], "words": words})
+        tell({"share": number / len(rows), "words": words})
     return found
 
 
