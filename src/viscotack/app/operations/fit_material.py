@@ -151,7 +151,6 @@ def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
 
     issued = passport is not None
     return {
-        "model": report.model,
         "notes": report.observed.source.notes,
         "table": material_table(report.material) if issued else None,
         "passport": passport_text(passport) if issued else None,

@@ -208,11 +208,6 @@ class Request(BaseModel):
             )
         return None if both[0] is None else both
 
-    @classmethod
-    def of(cls, **given: Any) -> Self:
-        """Create the request from its options: numbers in SI, or text with units."""
-        return request_of(cls, given)
-
     def check(self) -> None:
         """Refuse options that exclude each other."""
 
