@@ -75,5 +75,5 @@ def application(
     app.add_route("/", lambda request: FileResponse(folder / "index.html"))
     app.add_route("/api/docs", lambda request: FileResponse(folder / "docs.html"))
     app.mount("/page", StaticFiles(directory=folder))
-    limits = engine.limits
-    return guard(app, hosts=hosts, token=token, body=limits.body, uploads=limits.uploads)
+    body = engine.limits.body
+    return guard(app, hosts=hosts, token=token, body=body, uploads=20 * body)

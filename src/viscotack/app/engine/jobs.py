@@ -48,11 +48,6 @@ class Limits:
     cases: int = 1000
     body: int = 1_000_000
 
-    @property
-    def uploads(self) -> int:
-        """Longest request with files [bytes]."""
-        return 20 * self.body
-
 
 class TooMany(InputError):
     """The queue of jobs is full."""

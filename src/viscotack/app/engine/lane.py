@@ -27,10 +27,6 @@ class Defect(RuntimeError):
     """A task failed because of a defect."""
 
 
-class TooLong(InputError):
-    """A task exceeded its time limit."""
-
-
 # In a process: where news goes, and the user-defined classes.
 _line: Connection | None = None
 _also: tuple[Any, ...] = ()
@@ -146,7 +142,7 @@ class Lane:
                     while line.poll():
                         told(line.recv())
                     if asyncio.get_running_loop().time() > until and not future.done():
-                        raise TooLong(
+                        raise InputError(
                             f"exceeded the time limit of {seconds:g} s of this server; request "
                             "less accuracy or a smaller problem, or run viscotack on your own "
                             "machine"

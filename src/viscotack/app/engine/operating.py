@@ -10,9 +10,6 @@ from viscotack.app.operations.parts.json_data import plain
 from viscotack.app.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 from viscotack.errors import InputError
 
-# The curve of a simulation as it grows.
-_POINTS = "points"
-
 
 def warm() -> None:
     """Run slow initialisations once."""
@@ -58,7 +55,7 @@ def _wanted(kind: type[Request], outputs: Sequence[str]) -> frozenset[str]:
             f"outputs must be among {', '.join(sorted(known))}, got {unknown[0]!r:.60}"
         )
     needed = {output.name for output in kind.outputs if output.needed}
-    return frozenset(outputs) | needed | {_POINTS}
+    return frozenset(outputs) | needed
 
 
 def _beside(kind: type[Request], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:

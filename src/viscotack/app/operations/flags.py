@@ -107,7 +107,11 @@ FLAGS: Mapping[str, Flag] = {
         indenters=("profile",),
         metavar="FILE.csv",
     ),
-    "modulus_ratio": Flag("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio", "-"),
+    "modulus_ratio": Flag(
+        "Rubbery over glassy modulus k, up to 1.",
+        "material.modulus_ratio",
+        "material.modulus_ratio",
+    ),
     "exponent": Flag(
         "Exponent n of the modified power law.", "material.exponent", "material.exponent"
     ),
@@ -342,20 +346,9 @@ def material_table(
         of = "glassy_modulus" if name == "modulus_ratio" else name
         if name in said and of not in cards(kind):
             raise InputError(f"a solid {word} has no {name}; leave it out", field=name)
-        if name in said and name != "modulus_ratio":
+        if name in said:
             table[name] = said[name]
-    if "modulus_ratio" in said and not in_si:
-        table["modulus_ratio"] = said["modulus_ratio"]
-    if in_si:
-        table |= {"poisson_ratio": 0.5} if "poisson_ratio" not in said else {}
-        if "modulus_ratio" in said and "rubbery_modulus" in said:
-            ratio = parse(said["modulus_ratio"], "1")
-            if not 0 < ratio <= 1:
-                raise InputError(
-                    f"modulus_ratio must lie in (0, 1], got {ratio:g}", field="modulus_ratio"
-                )
-            table["glassy_modulus"] = f"{parse(said['rubbery_modulus'], 'Pa') / ratio!r} Pa"
-    return table
+    return ({"poisson_ratio": 0.5} if in_si else {}) | table
 
 
 def needs_of(words: str, nouns: Any, *, in_si: bool = False) -> list[str]:

@@ -113,7 +113,6 @@ class Simulate(Request):
             until=self.until,
             time_limit=self.time_limit,
             whole=self.whole,
-            points="points" in caller.wants,
             profiles=self.profiles,
             sensitivities=self.sensitivities,
         )
