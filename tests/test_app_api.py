@@ -111,6 +111,11 @@ def test_a_sweep_has_a_row_for_each_case_and_says_why_one_failed(ask):
     assert many.status_code == 422 and "exceed the limit of 3" in many.json()["error"]
 
 
+def test_no_file_of_the_server_is_read(ask):
+    found = ask("POST", "/api/material/show", json={"passport": "pyproject.toml"})
+    assert found.status_code == 422 and "was sent with the request" in found.json()["error"]
+
+
 def test_a_job_is_cancelled_at_once_and_the_next_is_served(ask):
     id = ask.job("simulate", accuracy=1e-6).json()["id"]
     while ask("GET", f"/api/jobs/{id}").json()["state"] == "queued":
