@@ -437,7 +437,8 @@ def material_of(given: Any, reading: Reading, temperature: float | None = None) 
     if {"modulus_ratio", "rubbery_modulus"} <= table.keys():
         if "glassy_modulus" in table:
             raise InputError(
-                f"{where} modulus_ratio and glassy_modulus determine each other; give only one"
+                f"{where} modulus_ratio and glassy_modulus determine each other; give only one",
+                field="material.modulus_ratio",
             )
         card, name = cards(Elastic)["rubbery_modulus"].card, "modulus_ratio"
         ratio = reading.key("material", name, card_of(ModulusRatio), table.pop(name))
