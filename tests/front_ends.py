@@ -19,8 +19,8 @@ from viscotack.app.api import application
 from viscotack.app.cli import main
 from viscotack.app.engine.jobs import Engine
 from viscotack.app.operations import ask, operation
+from viscotack.app.operations.options import Contact, Rows, flag_of, option_of
 from viscotack.app.operations.parts.json_data import plain
-from viscotack.app.operations.request import Contact, Rows, flag_of, option_of
 from viscotack.files.toml import toml_value
 from viscotack.model.problem.nouns import own_nouns
 
@@ -137,13 +137,12 @@ def write_rows(rows):
 
 def problem_flags(option, value):
     """Return what states a problem on the command line: words of the command, and flags."""
-    case = ["case"] if option.spelling == "commands" else []
     if not isinstance(value, dict):
-        return case, [value]
+        return [], [value]
     answers = {name: each for name, each in value.items() if name not in ("indenter", "case")}
     flags = [part for n, v in answers.items() for part in (f"--{n.replace('_', '-')}", v)]
     if "case" in value:
-        return case, [value["case"], *flags]
+        return [], [value["case"], *flags]
     return ([] if option.spelling == "flags" else [value["indenter"]]), flags
 
 

@@ -125,6 +125,7 @@ def test_every_start_can_be_written(line, start, tmp_path):
         (edited("[protocol]", '[layer]\nthickness = "1 mm"\n[protocol]'), "layer.base"),
         (edited('equilibrium_gap = "1.55 um"', 'strength = "-1 MPa"'), "interface.strength"),
         (edited("[interface]", '[interface]\nstrength = "1 MPa"'), "interface.strength"),
+        (edited("exponent =", "modulus_ratio = 0.1\nexponent ="), "material.modulus_ratio"),
     ],
 )
 def test_a_wrong_case_is_refused_with_its_field(text, field, tmp_path):

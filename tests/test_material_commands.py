@@ -134,7 +134,7 @@ def test_sweeps_in_several_files_give_a_force_at_another_temperature(lab, capsys
     (lab / "case.toml").write_text(text.replace("50 mJ", "150 mJ"))
     files = " ".join(f"rubber_{celsius}.txt" for celsius in (-40, -30, -20, -10, 0))
     line = f"material fit {files} --poisson-ratio 0.5 --model sls --shift-by both "
-    assert '--reference-temperature "20 degC"' in refused(line, capsys)
+    assert "--reference-temperature" in refused(line, capsys)
     line += '--reference-temperature "-30 degC" '
     refusal = refused(line + '--leave-out "15 degC"', capsys)
     assert "rubber_-40.txt and 4 more: no test within 1 K" in " ".join(refusal.split())

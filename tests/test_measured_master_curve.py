@@ -176,7 +176,7 @@ def test_a_table_shifts_the_points_near_its_rows_and_interpolates_between():
 @pytest.mark.parametrize(
     ("sweeps", "keywords", "words"),
     [
-        (measured(), {"reference_temperature": None}, "need reference_temperature="),
+        (measured(), {"reference_temperature": None}, "reference_temperature"),
         (measured(hertz=[1.0]), {}, "a temperature ramp at one frequency has no overlap"),
         (measured([120.0 + 273.15]), {}, "two or more temperatures"),
         (

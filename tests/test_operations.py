@@ -21,7 +21,8 @@ from front_ends import (
 from stated import PUNCH, SPHERE
 from viscotack.app.operations import operation, operations
 from viscotack.app.operations.flags import FLAGS
-from viscotack.app.operations.request import Caller, Contact, request_of
+from viscotack.app.operations.options import Contact
+from viscotack.app.operations.request import Caller, request_of
 from viscotack.app.operations.statement import statement
 from viscotack.app.operations.study import read_study, study_text
 from viscotack.errors import InputError
@@ -64,7 +65,7 @@ ASKED = {
     "theory jkr": [JKR],
     "theory maugis": [JKR | {"strength": "0.1 MPa"}],
     "theory persson-brener": [CRACK],
-    "theory punch": [{"case": "pad.toml", "stress": "60 kPa"}],
+    "theory punch": [{"problem": "pad.toml", "stress": "60 kPa"}],
     "theory steady-crack": [CRACK | {"law": "exponential:0.25"}],
 }
 # The same of those that take seconds.

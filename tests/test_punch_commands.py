@@ -93,20 +93,6 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
     assert np.nanmax(table["ligament_m"]) == pytest.approx(1e-3, rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ('base = "bonded"', "", "[layer] base"),
-        ('"50 um"', '"50 kg"', "[layer] thickness"),
-        ('[layer]\nthickness = "50 um"\nbase = "bonded"\n', "", "[layer]"),
-    ],
-)
-def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, capsys):
-    assert old in CASE
-    case_file.write_text(CASE.replace(old, new))
-    assert words in " ".join(refused([*PUNCH, case_file], capsys).split())
-
-
 def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
     assert "contains a punch" in refused(["simulate", "sphere", case_file], capsys)
     assert "contains a punch" in refused(["advise", case_file], capsys)

@@ -18,7 +18,7 @@ ASKED = {
     "predict": ("problem", CASE),
     "campaign inputs": ("problem", CASE),
     "forecast": ("study", STUDY),
-    "theory punch": ("case", CASE),
+    "theory punch": ("problem", CASE),
 }
 
 

@@ -7,7 +7,12 @@ from viscotack.errors import InputError
 from viscotack.model.materials.library import passport_of
 from viscotack.model.materials.passport_file import write_passport
 
-PAD = {"half_width": "1 mm", "work_of_adhesion": "50 mJ/m^2", "strength": "50 kPa"}
+PAD = {
+    "indenter": "punch",
+    "half_width": "1 mm",
+    "work_of_adhesion": "50 mJ/m^2",
+    "strength": "50 kPa",
+}
 STANDARD = {"contact_modulus": "1 MPa", "modulus_ratio": 0.1, "tau0": "1 ms"}
 ASKED = {"thickness": "200 um", "speed": "100 um/s"}
 
@@ -24,15 +29,14 @@ def passport(tmp_path):
 def test_what_a_passport_states_is_not_stated_beside_it(name, passport):
     _, file = passport
     given = PAD | ASKED | {"material": str(file)}
-    assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
+    assert ask("theory punch", problem=given).record()["pull_off_stress_Pa"] > 0
     with pytest.raises(InputError, match=f"defines the whole material; leave out `{name}`$"):
-        ask("theory punch", **given, **{name: STANDARD[name]})
+        ask("theory punch", problem=given | {name: STANDARD[name]})
 
 
 @pytest.mark.parametrize(
     ("word", "name", "given"),
     [
-        ("theory punch", "material", PAD | ASKED),
         ("material show", "passport", {}),
         ("material export", "passport", {"to": "abaqus", "bulk_modulus": "2 GPa"}),
     ],

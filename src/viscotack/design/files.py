@@ -30,7 +30,17 @@ from viscotack.model.traction import ages
 from .arrays.load import Hold
 from .arrays.pulling import MOST_PADS, Backing, PadArray, grid
 from .arrays.scatter import Scatter, check_draws
-from .space import INTERFACE, VARIABLES, Between, Bounds, Conditions, DesignSpace, Targets, ends
+from .space import (
+    INTERFACE,
+    VARIABLES,
+    Between,
+    Bounds,
+    Choice,
+    Conditions,
+    DesignSpace,
+    Targets,
+    ends,
+)
 from .window.chances import WindowScatter
 from .window.opening import aged
 from .window.picking import DONOR, RECEIVER, STAMP
@@ -161,6 +171,25 @@ class DesignFile:
     targets: Targets
     conditions: Conditions = Conditions()
     passports: Mapping[str, Passport] = field(default_factory=dict)
+
+    def cautions(self, choice: Choice) -> list[str]:
+        """Return the cautions on the forces of a design, each with the speeds it belongs to."""
+        from viscotack.prediction import cautions_on
+
+        from .fast import SURROGATES, FastTier
+        from .margins import pad_of
+
+        fast = FastTier(self.materials, self.traction, SURROGATES)
+        found: dict[str, list[str]] = {}
+        for name, speed in (("hold", choice.hold_speed), ("release", choice.release_speed)):
+            if speed is None:
+                continue
+            # without its backing, whose compliance changes the speed of the edge little
+            pad = replace(pad_of(choice, speed, bonded=self.space.bonded), backing=None)
+            passport = self.passports.get(choice.material)
+            for words in cautions_on(fast.problem(pad), passport=passport):
+                found.setdefault(words, []).append(name)
+        return [f"to {' and '.join(names)}: {words}" for words, names in found.items()]
 
 
 def read_design(

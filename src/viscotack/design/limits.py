@@ -62,6 +62,20 @@ class Limit:
         """Whether the target is out of reach."""
         return self.wanted < self.reach if self.target == "release" else self.wanted > self.reach
 
+    @property
+    def words(self) -> str:
+        """The bound as a sentence, where it excludes the target."""
+        unit = {"ratio": "1", "work": "J"}.get(self.target, "N")
+        least, most = (
+            ("at most", "at least") if self.target == "release" else ("at least", "at most")
+        )
+        cause = {"solid": "the solid permits", "speeds": "designs between the bounds reach"}
+        return (
+            f"out of reach: {self.target.replace('_', ' ')} of {least} "
+            f"{readable(self.wanted, unit)}; {cause[self.cause]} {most} "
+            f"{readable(self.reach, unit)}: {self.why}"
+        )
+
 
 def wanted(targets: Targets) -> dict[str, float]:
     """Return the targets with the ratio that hold and release imply."""

@@ -21,6 +21,7 @@ from viscotack.model.materials import Material, Passport
 from viscotack.model.materials.passport_uncertainty import shift_error
 from viscotack.model.protocol import Move
 
+from .approach import range_bound
 from .contact_time import APART, check_relaxed
 from .pull_off import History, PullOff, pull_offs
 
@@ -396,6 +397,7 @@ def series_of(
     temperature: float | None = None,
     compliance: float | None = None,
     compliance_uncertainty: float = 0.0,
+    bounded: bool = False,
     **known: Any,
 ) -> RateSeries:
     """Return the rate series of evaluated files of a rig.
@@ -411,6 +413,8 @@ def series_of(
     compliance, compliance_uncertainty : float, optional
         Compliance of the machine and its standard uncertainty [m/N]; by default that stated in the
         files.
+    bounded : bool
+        Whether the approaches bound the range of attraction, on a half-space.
     **known
         Other parameters of :class:`RateSeries`.
 
@@ -427,4 +431,9 @@ def series_of(
         known["stiffness"] = 1 / soft
         if compliance_uncertainty > 0:
             known["compliance_uncertainty"] = compliance_uncertainty / soft
+    if bounded and isinstance(known.get("body", HalfSpace()), HalfSpace):
+        solid = material.material if isinstance(material, Passport) else material
+        level = known.get("level", 0.9)
+        modulus = solid.contact_modulus
+        known["range_bound"] = range_bound(found.cycles, known["radius"], modulus, level)
     return RateSeries(tests, material=material, **known)

@@ -4,6 +4,7 @@ from viscotack.model.materials.shift import FittedShift as ShiftFit
 
 from .fit.fitting import allow_for_shifts, fit
 from .fit.master_curve import contradiction, master_curve, superposed
+from .fit.one_temperature import at_one_temperature
 from .fit.report import FitReport, issued
 from .fit.shift_factors import shift_factors
 from .fit.shift_laws import fit_arrhenius, fit_wlf, nearest_law
@@ -30,6 +31,7 @@ __all__ = [
     "Source",
     "TackOptions",
     "allow_for_shifts",
+    "at_one_temperature",
     "contradiction",
     "fit",
     "fit_arrhenius",

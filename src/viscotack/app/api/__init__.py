@@ -1,7 +1,10 @@
 """The HTTP API and the page that uses it."""
 
+import mimetypes
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from viscotack.app.engine.jobs import Engine
@@ -34,6 +37,8 @@ def application(
         import python_multipart  # noqa: F401  # files are sent with it
         import uvicorn  # noqa: F401  # serves it
         from fastapi import FastAPI
+        from fastapi.responses import FileResponse
+        from fastapi.staticfiles import StaticFiles
     except ImportError as error:
         raise InputError(
             f"the page and the API need {error.name}; install it with: {install_command('app')}"
@@ -64,5 +69,11 @@ def application(
     )
     refusals(app)
     app.include_router(routes(engine))
-    limits = engine.limits
-    return guard(app, hosts=hosts, token=token, body=limits.body, uploads=limits.uploads)
+    # some systems have another type for scripts, which browsers refuse
+    mimetypes.add_type("text/javascript", ".js")
+    folder = Path(str(files("viscotack.app.page")))
+    app.add_route("/", lambda request: FileResponse(folder / "index.html"))
+    app.add_route("/api/docs", lambda request: FileResponse(folder / "docs.html"))
+    app.mount("/page", StaticFiles(directory=folder))
+    body = engine.limits.body
+    return guard(app, hosts=hosts, token=token, body=body, uploads=20 * body)

@@ -10,6 +10,8 @@ from starlette.middleware.trustedhost import TrustedHostMiddleware
 _COOKIE = "viscotack"
 # The page, and uploads that it shows, load nothing from other servers and send nothing to them.
 _HEADERS = {
+    # page and server have the same version
+    "cache-control": "no-cache",
     "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; style-src 'self' "
     "'unsafe-inline'; frame-ancestors 'none'; form-action 'self'; base-uri 'none'",
     "referrer-policy": "no-referrer",

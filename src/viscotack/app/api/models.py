@@ -1,56 +1,8 @@
-"""Schemas of requests and responses of the API, with the limits of single numbers."""
+"""Schemas of the responses of the API."""
 
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
-
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
-
-Accuracy = Annotated[
-    float,
-    Field(ge=1e-6, le=LOOSEST_ACCURACY, description="Required relative error of the force."),
-]
-Until = Annotated[
-    Literal["pull-off", "detached"],
-    Field(description="Stop past the largest tension, or when the surfaces are apart."),
-]
-Confidence = Annotated[
-    float, Field(description="0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98: for these it was measured.")
-]
-
-
-class Strict(BaseModel):
-    """Base class of requests; rejects unknown names."""
-
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class AskedState(Strict):
-    """A case file, as text."""
-
-    toml: Annotated[str, Field(max_length=200_000)]
-
-
-class AskedQuick(Strict):
-    """A state of the page while its numbers are dragged."""
-
-    tables: dict[str, Any]
-    accuracy: Accuracy = DEFAULT_ACCURACY
-    until: Until = "detached"
-    confidence: Confidence = 0.9
-
-
-class AskedVerdict(Strict):
-    """A state of the page for which advice is requested."""
-
-    tables: dict[str, Any]
-
-
-class AskedTheory(AskedVerdict):
-    """A state of the page, and which slow theories to evaluate."""
-
-    crack: Annotated[bool, Field(description="The contact whose edge is a steady crack.")] = True
-    speeds: Annotated[bool, Field(description="The best theory at other speeds.")] = False
 
 
 class SentFiles(BaseModel):
@@ -87,8 +39,6 @@ class JobAnswer(BaseModel):
         ),
     ]
     points_from: int
-    rows: Annotated[list[dict[str, Any]], Field(description="Of a sweep, from `rows_from` on.")]
-    rows_from: int
     error: Annotated[str, Field(description="Why there is no answer; empty else.")]
     field: Annotated[str, Field(description="The option that the error names; empty else.")]
     answer: Annotated[

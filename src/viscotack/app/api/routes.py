@@ -1,44 +1,25 @@
-"""Routes of the API and of the page, and the static files of the page."""
+"""Routes of the API and of the page."""
 
 import asyncio
-from collections.abc import Callable
-from importlib.resources import files as files_of
 from inspect import cleandoc
 from typing import Annotated, Any
 
-from fastapi import APIRouter, FastAPI, Path, Query, Response, UploadFile
+from fastapi import APIRouter, FastAPI, Path, Query, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 
-from viscotack.app.engine import page_tasks
+from viscotack.app.engine import page
 from viscotack.app.engine.jobs import Engine, Job, TooMany, Unknown
 from viscotack.app.engine.lane import Defect
 from viscotack.app.operations import operations
 from viscotack.app.operations.request import Request, described, refusal, summary
 from viscotack.errors import InputError
 
-from .models import (
-    Answer,
-    AskedQuick,
-    AskedState,
-    AskedTheory,
-    AskedVerdict,
-    JobAnswer,
-    Refusal,
-    SentFiles,
-    Strict,
-)
+from .models import Answer, JobAnswer, Refusal, SentFiles
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
-_KINDS = {
-    "html": "text/html; charset=utf-8",
-    "css": "text/css; charset=utf-8",
-    "js": "text/javascript; charset=utf-8",
-    "svg": "image/svg+xml",
-    "toml": "text/plain; charset=utf-8",
-}
 _REFUSED: dict[int | str, dict[str, Any]] = {
     status: {"model": Refusal, "description": words}
     for status, words in (
@@ -114,44 +95,30 @@ def _jobs(router: APIRouter, engine: Engine) -> None:
     async def job(
         id: Id,
         points_from: Annotated[int, Query(ge=0, le=10**9, description="First point.")] = 0,
-        rows_from: Annotated[int, Query(ge=0, le=10**9, description="First row.")] = 0,
         wait: Annotated[
             float, Query(ge=0, le=_LONGEST_WAIT, description="Wait for news so long [s].")
         ] = 0.0,
     ) -> JobAnswer:
         """Ask how far a job is, and for its answer when it is done."""
         found = engine.job(id)
-        known = len(found.points) > points_from or len(found.rows) > rows_from
-        if wait and not found.over and not known:
+        if wait and not found.over and len(found.points) <= points_from:
             try:
                 await asyncio.wait_for(found.news.wait(), wait)
             except TimeoutError:
                 pass  # return the unchanged state
-        return _told(found, points_from, rows_from)
+        return _told(found, points_from)
 
     @router.delete("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
     async def cancel(id: Id) -> JobAnswer:
-        """End a job, and forget it; its curve, rows and answer are not sent again."""
+        """End a job, and forget it; its curve and answer are not sent again."""
         job = await engine.cancel(id)
-        return _told(job, len(job.points), len(job.rows), whole=False)
+        return _told(job, len(job.points), whole=False)
 
 
-def _told(job: Job, points_from: int = 0, rows_from: int = 0, *, whole: bool = True) -> JobAnswer:
-    return JobAnswer.model_validate(
-        {
-            "id": job.id,
-            "kind": job.kind,
-            "state": job.state,
-            "share": min(job.share, 1.0),
-            "points": job.points[points_from:],
-            "points_from": points_from,
-            "rows": job.rows[rows_from:],
-            "rows_from": rows_from,
-            "error": job.error,
-            "field": job.field,
-            "answer": job.answer if whole else None,
-        }
-    )
+def _told(job: Job, points_from: int = 0, *, whole: bool = True) -> JobAnswer:
+    told = {"points": job.points[points_from:], "points_from": points_from}
+    told["answer"] = job.answer if whole else None
+    return JobAnswer.model_validate(vars(job) | told)
 
 
 def refusals(app: FastAPI) -> None:
@@ -205,55 +172,17 @@ def _page(router: APIRouter, engine: Engine) -> None:
     @router.get("/api/forms", tags=["page"])
     async def forms() -> Answer:
         """Return the input forms, the published materials and example cases."""
-        return Answer(**await engine.page(page_tasks.ask_forms, {}))
+        return Answer(**await engine.ask(page.Forms(), lane="page"))
 
-    for name, (kind, task) in _TASKS.items():
-        _page_task(router, engine, name, kind, task)
-
-    @router.get("/", include_in_schema=False)
-    async def page() -> Response:
-        return _file("index.html")
-
-    @router.get("/api/docs", include_in_schema=False)
-    async def docs() -> Response:
-        return _file("docs.html")
-
-    @router.get("/page/{name}", include_in_schema=False)
-    async def part(name: str) -> Response:
-        return _file(name)
+    for kind in page.REQUESTS:
+        _of_page(router, engine, kind)
 
 
-# Tasks of the page: what each takes, and its function.
-_TASKS: dict[str, tuple[type[Strict], Callable[..., dict[str, Any]]]] = {
-    "state": (AskedState, page_tasks.ask_state),
-    "quick": (AskedQuick, page_tasks.ask_quick),
-    "moduli": (AskedVerdict, page_tasks.ask_moduli),
-    "verdict": (AskedVerdict, page_tasks.ask_verdict),
-    "theory": (AskedTheory, page_tasks.ask_theory),
-}
-
-
-def _page_task(router: APIRouter, engine: Engine, name: str, kind: type[Strict], task: Any) -> None:
+def _of_page(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     async def route(asked: Any) -> Answer:
-        return Answer(**await engine.page(task, asked.model_dump()))
+        return Answer(**await engine.ask(asked, lane="page"))
 
     route.__annotations__["asked"] = kind
-    router.post(f"/api/{name}", tags=["page"], summary=name, description=task.__doc__)(route)
-
-
-# What the page is made of: the requested names are looked up here, and not in a folder.
-_PARTS = {
-    part.name: part
-    for part in files_of("viscotack.app.page").iterdir()
-    if part.name.rpartition(".")[2] in _KINDS
-}
-
-
-def _file(name: str) -> Response:
-    if name not in _PARTS:
-        return Response("there is no such file", 404, media_type="text/plain")
-    kind = _KINDS[name.rpartition(".")[2]]
-    # never cached, so that the page and the server have the same version
-    return Response(
-        _PARTS[name].read_bytes(), media_type=kind, headers={"cache-control": "no-cache"}
+    router.post(f"/api/{kind.word}", tags=["page"], summary=kind.word, description=kind.__doc__)(
+        route
     )

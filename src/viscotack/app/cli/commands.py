@@ -99,7 +99,7 @@ def _spelled(error: InputError, kind: "type[Request] | None") -> str:
 def _flag(name: str, kind: "type[Request] | None") -> str:
     """Return a name as the command line spells it, if it is an option."""
     from viscotack.app.operations.flags import FLAGS
-    from viscotack.app.operations.request import flag_of, option_of
+    from viscotack.app.operations.options import flag_of, option_of
 
     if kind is not None and name in kind.model_fields:
         option = option_of(kind.model_fields[name])

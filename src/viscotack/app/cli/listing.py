@@ -11,7 +11,6 @@ from viscotack.app.operations import COMMANDS, SECTIONS
 from .commands import application
 
 _GROUPS = {
-    "simulate": "Simulate a contact.",
     "theory": "Evaluate a closed-form theory.",
     "material": "Fit, show, convert and export materials.",
     "export": "Write contacts for other programs.",
@@ -46,8 +45,8 @@ def add_commands() -> None:
     """Add the commands of all operations to the application."""
     application.info.cls = BySection
     groups: dict[str, typer.Typer] = {}
-    for name, each in COMMANDS.items():
-        if not each.module:
+    for name, (module, summary) in COMMANDS.items():
+        if not module:
             continue
         first, _, rest = name.partition(" ")
         place = application
@@ -57,7 +56,7 @@ def add_commands() -> None:
                 groups[first] = typer.Typer(help=words, no_args_is_help=True, rich_markup_mode=None)
                 application.add_typer(groups[first], name=first)
             place = groups[first]
-        place.command(rest or first, cls=Later, help=each.summary)(_completing(name))
+        place.command(rest or first, cls=Later, help=summary)(_completing(name))
 
 
 def _completing(name: str) -> Callable[[], Any]:

@@ -10,22 +10,20 @@ import typer
 from pydantic.fields import FieldInfo
 from typer.main import get_command
 
-from viscotack.app.operations import COMMANDS, operation
-from viscotack.app.operations.flags import OF_FILE, Flag, flags_of
-from viscotack.app.operations.request import (
+from viscotack.app.operations import operation
+from viscotack.app.operations.flags import OF_FILE, flags_of
+from viscotack.app.operations.options import (
     Contact,
     Number,
     Option,
-    Request,
     Rows,
     choices_of,
     flag_of,
     is_many,
     option_of,
-    options,
     quoted,
-    request_of,
 )
+from viscotack.app.operations.request import Request, options, request_of
 from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input
@@ -49,28 +47,24 @@ _CASE = "A problem in SI with units (docs/input.md), instead of the options of t
 
 def command_of(name: str) -> Any:
     """Make a command, as the library of the command line has it."""
-    listed = COMMANDS[name]
-    word, _, last = name.rpartition(" ")
-    kind = operation(name if listed.indenter is None else word)
-    words = kind.helps.get(last) if listed.indenter is not None else kind.__doc__
-    indenter = listed.indenter
+    kind, last = operation(name), name.rpartition(" ")[2]
 
     def command(**said: Any) -> None:
-        _run(kind, indenter, said)
+        _run(kind, said)
 
-    parameters = list(_parameters(kind, indenter))
+    parameters = list(_parameters(kind))
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
-    alone.command(last, help=cleandoc(words or ""), context_settings=_SETTINGS)(command)
+    alone.command(last, help=cleandoc(kind.__doc__ or ""), context_settings=_SETTINGS)(command)
     return get_command(alone)
 
 
-def _parameters(kind: type[Request], indenter: str | None) -> Iterator[inspect.Parameter]:
+def _parameters(kind: type[Request]) -> Iterator[inspect.Parameter]:
     found = {name: (option_of(info), info) for name, info in options(kind).items()}
     # arguments first
     for name, (option, info) in sorted(found.items(), key=lambda each: not each[1][0].argument):
         if isinstance(option, Contact):
-            yield from _of_problem(option, indenter)
+            yield from _of_problem(option)
         elif not (isinstance(option, Rows) and option.elsewhere):
             yield _of_option(name, option, info)
     for output in kind.outputs:
@@ -119,7 +113,7 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
     return _parameter(name, kind if needed else kind | None, words, needed=needed)
 
 
-def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Parameter]:
+def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
     """Yield the parameters of a problem: a file, or the flags of an indenter."""
     if option.spelling == "word":
         words = typer.Argument(metavar=option.metavar, help=option.words, show_default=False)
@@ -130,7 +124,8 @@ def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Param
     metavar = "CASES.csv" if option.table else "CASE.toml"
     words = typer.Argument(metavar=metavar, help=told, show_default=False)
     yield _parameter("case_", Path if only else Path | None, words, needed=only)
-    for name, flag in _flags(option, indenter).items():
+    flags = OF_FILE if only else flags_of(option.indenters)
+    for name, flag in flags.items():
         usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
         words = typer.Option(
             f"--{name.replace('_', '-')}", metavar=usual, help=flag.words, show_default=False
@@ -138,13 +133,7 @@ def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Param
         yield _parameter(f"of_{name}", list[str] | None if flag.many else str | None, words)
 
 
-def _flags(option: Contact, indenter: str | None) -> Mapping[str, Flag]:
-    if indenter == "" or option.spelling == "case":
-        return OF_FILE
-    return flags_of(option.indenters if indenter is None else (indenter,))
-
-
-def _run(kind: type[Request], indenter: str | None, said: dict[str, Any]) -> None:
+def _run(kind: type[Request], said: dict[str, Any]) -> None:
     """Run an operation with its options; write its files and its answer."""
     as_json, own = said.pop("json_"), said.pop("with_", None) or ()
     force = said.pop("force_", False)
@@ -152,17 +141,19 @@ def _run(kind: type[Request], indenter: str | None, said: dict[str, Any]) -> Non
         given = {name: said[name] for name in kind.model_fields if name in said}
         for option in map(option_of, kind.model_fields.values()):
             if isinstance(option, Contact):
-                given |= _problem(option, indenter, said)
+                given |= _problem(option, said)
         asked = request_of(kind, given)
         files = {output: said[output.name] for output in kind.outputs}
         files = checked(files, force=force, as_json=as_json)
         carry_out(asked, files, own, as_json=as_json)
 
 
-def _problem(option: Contact, indenter: str | None, said: Mapping[str, Any]) -> dict[str, Any]:
+def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
     """Return the input for a problem: an indenter with flags, or a file."""
     flags = {n.removeprefix("of_"): x for n, x in said.items() if n.startswith("of_") and x}
     named = [str(x) for x in (said.get("what_"), said.get("case_")) if x is not None]
+    if named[:1] == ["case"]:
+        del named[0]
     found: dict[str, Any] = {}
     endings = (".csv", ".xlsx") if option.table else ()
     tables = [name for name in named if Path(name).suffix.lower() in endings]
@@ -180,13 +171,12 @@ def _problem(option: Contact, indenter: str | None, said: Mapping[str, Any]) -> 
             return found
     if files and not Path(files[0]).suffix and option.expected:
         raise InputError(f"{option.expected}, got {files[0]!r}")
-    word = (words or [indenter or ""])[0]
+    of_word = {"indenter": words[0]} if words else {}
     if files:
-        of_word = {"indenter": word} if word else {}
         return found | {"problem": {"case": files[0], **of_word, **flags}}
-    if not word and option.spelling != "flags":
-        return found
-    return found | {"problem": {"indenter": word or _first_with(option, flags), **flags}}
+    if not of_word and option.spelling == "flags":
+        of_word = {"indenter": _first_with(option, flags)}
+    return found | {"problem": of_word | flags} if of_word else found
 
 
 def _first_with(option: Contact, given: Mapping[str, Any]) -> str:

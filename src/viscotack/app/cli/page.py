@@ -1,11 +1,13 @@
 """The command ``viscotack app``: serve the page and the API on this machine."""
 
+import json
 import os
 import secrets
 import socket
 import webbrowser
 from pathlib import Path
 from typing import Annotated, Any
+from urllib.parse import urlencode
 
 import typer
 from typer import Argument, Option
@@ -104,14 +106,12 @@ def _listening(host: str, port: int) -> socket.socket:
 
 def _query(case: Path, also: tuple[Any, ...]) -> str:
     """Return the query of a link to a case file, including a material in a separate file."""
-    from viscotack.app.engine.state import State
     from viscotack.app.operations.parts.library import material_table
     from viscotack.files.toml import read_toml
-    from viscotack.model.problem.case_file import read_case
+    from viscotack.model.problem.case_file import case_of_tables, read_case
 
     problem, tables = read_case(case, also=also), read_toml(case)
     if tables["material"].keys() & {"passport", "file"}:
         tables["material"] = material_table(problem.material)
-    state = State(tables, also)
-    state.problem  # noqa: B018  # rejects cases that refer to other files
-    return state.query
+    case_of_tables(tables, where=str(case), also=also)  # rejects cases that refer to other files
+    return urlencode({"state": json.dumps({"case": tables})})

@@ -9,7 +9,8 @@ from typing import Any
 
 import typer
 
-from viscotack.app.operations.request import Caller, Output, Request, answered
+from viscotack.app.operations.options import Output
+from viscotack.app.operations.request import Caller, Request, answered
 from viscotack.files.text import harmless
 
 from .writing import finish
@@ -58,35 +59,20 @@ def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
     if not sys.stderr.isatty():
         yield _lines()
         return
+    from rich import progress as rich
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
 
     # the remaining time assumes that work is proportional to the completed share
-    times = (
-        TimeElapsedColumn(),
-        TextColumn("gone, about"),
-        TimeRemainingColumn(),
-        TextColumn("to go"),
-    )
-    words = (TextColumn("{task.fields[words]}", markup=False),)
-    first = (TextColumn("{task.description}"), BarColumn())
-    with Progress(*first, *times, console=Console(stderr=True), transient=True) as bar:
+    times = rich.TimeElapsedColumn(), rich.TextColumn("gone,"), rich.TimeRemainingColumn()
+    words = rich.TextColumn("to go  {task.fields[words]}", markup=False)
+    columns = rich.TextColumn("{task.description}"), rich.BarColumn(), *times, words
+    with rich.Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=1.0, visible=False, words="")
 
         def tell(told: Mapping[str, Any]) -> None:
             if "share" in told:
-                said = told.get("words", "")
-                bar.columns = (*first, *(words if said else times))
-                doing = told.get("doing", "")
-                bar.update(
-                    task, completed=told["share"], description=doing, words=said, visible=True
-                )
+                said = {"description": told.get("doing", ""), "words": told.get("words", "")}
+                bar.update(task, completed=told["share"], visible=True, **said)
 
         yield tell
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import typer
 
-from viscotack.app.operations.request import Answer, Output
+from viscotack.app.operations.options import Output
+from viscotack.app.operations.request import Answer
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
 from viscotack.files.whole import (

@@ -12,31 +12,14 @@ from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.case_file import ProfilePoint
 from viscotack.model.problem.law_table import STRENGTH
 from viscotack.model.problem.nouns import Nouns, known
+from viscotack.model.problem.protocol_table import STARTS
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
 from viscotack.model.traction import Tabulated
 
-# What a field that has no example begins with, by its unit.
-_SUGGESTED = {
-    "Pa": "2 kPa",
-    "s": "100 ms",
-    "m": "1 mm",
-    "m/s": "100 um/s",
-    "N": "1 mN",
-    "N/m": "500 N/m",
-    "Pa/m": "1 GPa/m",
-    "J/m^2": "0.05 J/m^2",
-    "1": "0.5",
-}
-# Ways to begin, by what a force is measured in: that of a punch is a mean stress.
-_DEPTH = ("preload_depth", AtDepth, "pressed to a depth")
-_STARTS = {
-    "N": (
-        ("preload_force", AtForce, "pressed by a force"),
-        _DEPTH,
-        ("preload_radius", AtRadius, "to a contact radius"),
-    ),
-    "Pa": (("preload_stress", AtForce, "pressed by a mean stress"), _DEPTH),
-}
+# What a field begins with that has no example in its unit.
+_SUGGESTED = {"Pa": "2 kPa", "Pa/m": "1 GPa/m", "1": "0.5"}
+# Ways to begin, the usual one first.
+_TITLES = {AtForce: "pressed by a load", AtDepth: "to a depth", AtRadius: "to a contact radius"}
 
 
 def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
@@ -68,9 +51,7 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
         ],
         "layer": {
             "fields": _fields(Layer),
-            "bases": [
-                {"word": base.word, "words": _first(base)} for base in (Frictionless, Bonded)
-            ],
+            "bases": [{"word": base.word} for base in (Frictionless, Bonded)],
         },
         "protocol": {"revolution": _protocol(revolution.SI), "plane": _protocol(plane.SI)},
     }
@@ -107,11 +88,12 @@ def _shape(word: str, kind: Any) -> dict[str, Any]:
 
 def _protocol(units: Mapping[str, str]) -> dict[str, Any]:
     """Return the fields of the protocol, in the units of a geometry."""
-    test = cards(Retraction)
+    test, known = cards(Retraction), {x: key for key, x in STARTS[units["force"]].items()}
     starts = []
-    for key, kind, words in _STARTS[units["force"]]:
+    for kind in (x for x in _TITLES if x in known):
         (field,) = cards(kind).values()
-        starts.append(_asked(key, field.card, units[field.card.measure]) | {"title": words})
+        asked = _asked(known[kind], field.card, units[field.card.measure])
+        starts.append(asked | {"title": _TITLES[kind]})
     (gap,) = cards(Apart).values()
     apart = _asked("start", gap.card) | {"title": "apart", "prefix": "apart "}
     return {
@@ -148,14 +130,10 @@ def _asked(
         "key": key,
         "kind": "number",
         "unit": unit,
-        "symbol": card.symbol,
-        "words": card.words,
-        "above": card.above,
-        "least": card.least,
-        "most": card.most,
+        **{name: getattr(card, name) for name in ("symbol", "words", "above", "least", "most")},
         "range": card.range if card.bounded else "",
         "optional": optional,
-        "example": example or _SUGGESTED.get(unit, "1" if unit == "1" else f"1 {unit}"),
+        "example": example or _SUGGESTED.get(unit, "1"),
     }
 
 

@@ -4,24 +4,21 @@ It belongs to one event loop. All computations run in the processes of :mod:`.la
 """
 
 import asyncio
-import json
 import secrets
-import zlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import monotonic
 from typing import Any
 
 from viscotack.app.operations.request import Request, harmless_name
 from viscotack.errors import InputError
 
-from . import operating, page_tasks
+from . import operating, page
 from .lane import Defect, Lane
 
-# Largest number of finished jobs that are kept, and for how long [s].
-_KEPT, _KEPT_FOR = 64, 900.0
+# Largest number of finished jobs, and of sent files, that are kept.
+_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -51,11 +48,6 @@ class Limits:
     cases: int = 1000
     body: int = 1_000_000
 
-    @property
-    def uploads(self) -> int:
-        """Longest request with files [bytes]."""
-        return 20 * self.body
-
 
 class TooMany(InputError):
     """The queue of jobs is full."""
@@ -63,14 +55,6 @@ class TooMany(InputError):
 
 class Unknown(InputError):
     """No job, or no files, have this id."""
-
-
-@dataclass
-class Upload:
-    """Files that were sent, in a folder of their own."""
-
-    folder: TemporaryDirectory[str]
-    used: float = field(default_factory=monotonic)
 
 
 @dataclass(eq=False)
@@ -87,10 +71,12 @@ class Job:
         "queued", "running", "done", "refused", "failed" or "cancelled".
     share : float
         Of the work that is done.
-    points, rows : list
-        Of the curve that grows, and of the table.
+    points : list
+        Of the curve that grows.
     error, field : str
         Why it has no answer, and the option that is wrong.
+    answer : dict or None
+        What came out.
     """
 
     id: str
@@ -98,29 +84,21 @@ class Job:
     state: str = "queued"
     share: float = 0.0
     points: list[Any] = field(default_factory=list)
-    rows: list[Any] = field(default_factory=list)
     error: str = ""
-    ended: float | None = None
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
-    _answer: bytes = b""
+    answer: dict[str, Any] | None = None
     field: str = ""
 
     @property
     def over(self) -> bool:
         """Whether nothing more will come of it."""
-        return self.ended is not None
-
-    @property
-    def answer(self) -> dict[str, Any] | None:
-        """What came out, None while there is nothing."""
-        return json.loads(zlib.decompress(self._answer)) if self._answer else None
+        return self.state not in ("queued", "running")
 
     def tell(self, told: dict[str, Any]) -> None:
         """Store a progress message of the task."""
-        self.share = max(self.share, told.get("share", 0.0))
+        self.share = min(max(self.share, told.get("share", 0.0)), 1.0)
         self.points += told.get("points", [])
-        self.rows += told.get("rows", [])
         self.changed()
 
     def changed(self) -> None:
@@ -130,10 +108,8 @@ class Job:
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
         """Store the outcome."""
-        self.state, self.error, self.ended = state, error, monotonic()
-        if answer is not None:
-            self.share = 1.0
-            self._answer = zlib.compress(json.dumps(answer).encode(), 1)
+        self.state, self.error, self.answer = state, error, answer
+        self.share = self.share if answer is None else 1.0
         self.changed()
 
 
@@ -152,13 +128,14 @@ class Engine:
         self.limits = Limits() if limits is None else limits
         self._own = tuple(own)
         self._jobs: dict[str, Job] = {}
-        self._uploads: dict[str, Upload] = {}
+        self._uploads: dict[str, TemporaryDirectory[str]] = {}
+        self._nothing = TemporaryDirectory(prefix="viscotack-")
         self._lanes: dict[str, Lane] = {}
 
     async def begin(self) -> None:
         """Start a process of each lane, so that no simulation holds up a slider."""
         self._lanes = {
-            "page": Lane(2, page_tasks.warm, self._own),
+            "page": Lane(2, page.warm, self._own),
             "ask": Lane(2, operating.warm, self._own, nice=4),
             "work": Lane(self.limits.workers, operating.warm, self._own, nice=2),
         }
@@ -170,18 +147,15 @@ class Engine:
         await asyncio.gather(*(self._stop(job) for job in self._jobs.values()))
         for lane in self._lanes.values():
             lane.end()
-        for upload in self._uploads.values():
-            upload.folder.cleanup()
+        for folder in (self._nothing, *self._uploads.values()):
+            folder.cleanup()
 
-    async def page(self, task: Callable[..., Any], *given: Any) -> dict[str, Any]:
-        """Return the answer of a task of the page."""
-        return await self._lanes["page"].run(task, *given, seconds=self.limits.ask_time)
-
-    async def ask(self, asked: Request, outputs: Sequence[str], files: str) -> dict[str, Any]:
+    async def ask(
+        self, asked: Request, outputs: Sequence[str] = (), files: str = "", lane: str = "ask"
+    ) -> dict[str, Any]:
         """Return the answer of a request."""
-        given = asked, tuple(outputs), self._folder(files)
-        lane = self._lanes["ask"]
-        return await lane.run(operating.run_request, *given, seconds=self.limits.ask_time)
+        run, given = self._lanes[lane].run, (asked, tuple(outputs), self._folder(files))
+        return await run(operating.run_request, *given, seconds=self.limits.ask_time)
 
     def keep(self, files: Iterable[tuple[str, bytes]]) -> str:
         """Keep files that were sent, and return the name by which requests refer to them."""
@@ -194,17 +168,17 @@ class Engine:
                 raise InputError(f"two files are called {path.name}; rename one")
             path.write_bytes(content)
         id = secrets.token_urlsafe(16)
-        self._uploads[id] = Upload(folder)
+        self._uploads[id] = folder
         return id
 
     def _folder(self, files: str) -> str:
-        """Return the folder of files that were sent, "" without."""
+        """Return the folder of files that were sent, an empty one without."""
         if not files:
-            return ""
+            return self._nothing.name
         if files not in self._uploads:
             raise Unknown("there are no such files; they have expired, send them again")
-        self._uploads[files].used = monotonic()
-        return self._uploads[files].folder.name
+        self._uploads[files] = self._uploads.pop(files)  # the last used is the last
+        return self._uploads[files].name
 
     def start(self, asked: Request, outputs: Sequence[str], files: str) -> Job:
         """Return a job that has been put in the queue; TooMany where it is full."""
@@ -238,10 +212,6 @@ class Engine:
         self._jobs.pop(id, None)
         return job
 
-    def processes(self) -> list[int]:
-        """Return the identifiers of all living processes."""
-        return [pid for lane in self._lanes.values() for pid in lane.processes()]
-
     async def _run(self, job: Job, given: tuple[Request, tuple[str, ...], str]) -> None:
         def begun() -> None:
             job.state = "running"
@@ -268,15 +238,11 @@ class Engine:
             job.close("cancelled", error="it was cancelled")
 
     def _forget(self) -> None:
-        """Forget jobs and files of long ago, and the oldest of many."""
-        now = monotonic()
-        over = sorted((j for j in self._jobs.values() if j.over), key=lambda j: j.ended or 0.0)
-        old = [job for job in over if now - (job.ended or 0.0) > _KEPT_FOR]
-        for job in {*old, *over[: max(len(over) - _KEPT, 0)]}:
-            del self._jobs[job.id]
-        if any(not job.over for job in self._jobs.values()):
-            return  # it may still read its files
-        sent = sorted(self._uploads, key=lambda id: self._uploads[id].used)
-        for id in sent:
-            if now - self._uploads[id].used > _KEPT_FOR or len(self._uploads) > _KEPT:
-                self._uploads.pop(id).folder.cleanup()
+        """Forget the oldest of many jobs and files."""
+        over = [job.id for job in self._jobs.values() if job.over]
+        for id in over[:-_KEPT]:
+            del self._jobs[id]
+        if len(over) < len(self._jobs):
+            return  # one may still read its files
+        for id in [*self._uploads][:-_KEPT]:
+            self._uploads.pop(id).cleanup()

@@ -27,10 +27,6 @@ class Defect(RuntimeError):
     """A task failed because of a defect."""
 
 
-class TooLong(InputError):
-    """A task exceeded its time limit."""
-
-
 # In a process: where news goes, and the user-defined classes.
 _line: Connection | None = None
 _also: tuple[Any, ...] = ()
@@ -100,10 +96,6 @@ class Lane:
         self._all.clear()
         self._idle.clear()
 
-    def processes(self) -> list[int]:
-        """Return the identifiers of all living processes."""
-        return [x.pid for pool in self._all for x in (pool._processes or {}).values() if x.pid]
-
     def _started(self) -> tuple[Processes, Connection]:
         ours, theirs = FRESH.Pipe(duplex=False)
         pool = Processes(1, _begin, (theirs, *self._given))
@@ -150,7 +142,7 @@ class Lane:
                     while line.poll():
                         told(line.recv())
                     if asyncio.get_running_loop().time() > until and not future.done():
-                        raise TooLong(
+                        raise InputError(
                             f"exceeded the time limit of {seconds:g} s of this server; request "
                             "less accuracy or a smaller problem, or run viscotack on your own "
                             "machine"

@@ -2,18 +2,13 @@
 
 import base64
 import io
-from collections.abc import Sequence
-from pathlib import Path
+from collections.abc import Callable, Sequence
+from contextlib import chdir
 from typing import Any
 
 from viscotack.app.operations.parts.json_data import plain
 from viscotack.app.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 from viscotack.errors import InputError
-
-from .page_tasks import Tell
-
-# The curve of a simulation as it grows.
-_POINTS = "points"
 
 
 def warm() -> None:
@@ -28,43 +23,28 @@ def warm() -> None:
 
 
 def run_request(
-    asked: Request, outputs: tuple[str, ...], folder: str, *, tell: Tell, also: tuple[Any, ...]
+    asked: Request,
+    outputs: tuple[str, ...],
+    folder: str,
+    *,
+    tell: Callable[[dict[str, Any]], None],
+    also: tuple[Any, ...],
 ) -> dict[str, Any]:
     """Answer a request; return the record of the answer, with other outputs in ``beside``.
 
     `outputs` are names of files, "words" or "drawn"; `folder` has the files that were sent.
     """
-    # paths on the server are removed from messages
-    shown = f"{folder}/" if folder else ""
+    wanted = _wanted(type(asked), outputs)
+    caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, sent=True)
     try:
-        wanted = _wanted(type(asked), outputs)
-        caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, (), Path(folder), True)
-        answer = answered(asked, caller)
-        # files first: what an answer counts while it writes them is in its record
-        beside = _beside(type(asked), answer, wanted)
-        return _without(shown, _record(answer) | beside)
-    except InputError as error:
-        raise type(error)(_without(shown, str(error)), field=error.field) from None
+        # so that files have their names in answers, and not the place where they lie
+        with chdir(folder):
+            answer = answered(asked, caller)
+            return answer.record() | _beside(type(asked), answer, wanted)
     except FileNotFoundError as error:
-        raise InputError(f"there is no file {_without(shown, str(error.filename))}") from None
+        raise InputError(f"there is no file {error.filename}") from None
     except OSError as error:
-        raise InputError(_without(shown, str(error))) from None
-
-
-def _without(folder: str, value: Any) -> Any:
-    """Return an answer in which files have their names, and not the place where they lay."""
-    if not folder:
-        return value
-    if isinstance(value, dict):
-        return {key: _without(folder, entry) for key, entry in value.items()}
-    if isinstance(value, list):
-        return [_without(folder, entry) for entry in value]
-    return value.replace(folder, "") if isinstance(value, str) else value
-
-
-def _record(answer: Answer) -> dict[str, Any]:
-    found = answer.record()
-    return found if isinstance(found, dict) else {"answer": found}
+        raise InputError(str(error)) from None
 
 
 def _wanted(kind: type[Request], outputs: Sequence[str]) -> frozenset[str]:
@@ -75,7 +55,7 @@ def _wanted(kind: type[Request], outputs: Sequence[str]) -> frozenset[str]:
             f"outputs must be among {', '.join(sorted(known))}, got {unknown[0]!r:.60}"
         )
     needed = {output.name for output in kind.outputs if output.needed}
-    return frozenset(outputs) | needed | {_POINTS}
+    return frozenset(outputs) | needed
 
 
 def _beside(kind: type[Request], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:

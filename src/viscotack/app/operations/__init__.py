@@ -6,7 +6,6 @@ it runs.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -18,128 +17,71 @@ if TYPE_CHECKING:
 __all__ = ["ask", "operation", "operations"]
 
 
-@dataclass(frozen=True)
-class Listed:
-    """A command before its module is imported.
-
-    Attributes
-    ----------
-    module : str
-        Module of this folder that declares its request.
-    summary : str
-        First line of its help.
-    indenter : str or None
-        Of the problem that its flags state, "" for a file alone; None for a request of one command.
-    """
-
-    module: str
-    summary: str
-    indenter: str | None = None
-
-
-# What a person does -> its commands.
-SECTIONS: Mapping[str, Mapping[str, Listed]] = {
+# What a person does -> its commands: module of this folder that declares the request of each, ""
+# without one, and the first line of its help.
+SECTIONS: Mapping[str, Mapping[str, tuple[str, str]]] = {
     "Model a contact": {
-        "predict": Listed("predict", "Predict the pull-off force, with an interval."),
-        "advise": Listed(
-            "predict", "Determine the regime of a contact and the reliability of each method."
+        "predict": ("predict", "Predict the pull-off force, with an interval."),
+        "advise": ("predict", "State the regime of a contact and what each method is worth."),
+        "simulate": ("simulate", "Pull a sphere, punch, profile or disc off a soft body."),
+        "show": ("simulate", "Show a saved result."),
+        "rough": ("rough", "Press a rough surface against a soft body and pull it off."),
+        "uncertainty": ("uncertainty", "Propagate uncertainties of inputs to the pull-off force."),
+        "theory jkr": ("theory_contacts", "Detachment of an elastic sphere (JKR)."),
+        "theory maugis": ("theory_contacts", "Detachment of an elastic sphere (Maugis)."),
+        "theory disc": ("theory_contacts", "Detachment of a disc (Kendall)."),
+        "theory punch": ("theory_punch", "Flat punch on a layer: stress, or thickness."),
+        "theory persson-brener": ("theory_cracks", "Surface energy of a moving crack."),
+        "theory greenwood": ("theory_cracks", "Surface energy of a crack with a cohesive zone."),
+        "theory steady-crack": (
+            "theory_cracks",
+            "Surface energy of a crack with its traction law.",
         ),
-        "simulate sphere": Listed(
-            "simulate", "Pull a rigid sphere off a soft viscoelastic half-space.", "sphere"
-        ),
-        "simulate punch": Listed(
-            "simulate", "Pull a rigid flat punch off a soft viscoelastic layer.", "punch"
-        ),
-        "simulate profile": Listed(
-            "simulate", "Pull a cone or another profile off a viscoelastic half-space.", "profile"
-        ),
-        "simulate disc": Listed(
-            "simulate", "Pull a disc, the flat end of a cylinder, off a half-space.", "disc"
-        ),
-        "simulate case": Listed(
-            "simulate", "Simulate the problem of a case file in SI, with any indenter.", ""
-        ),
-        "show": Listed("simulate", "Show a saved result."),
-        "rough": Listed("rough", "Press a rough surface against a soft body and pull it off."),
-        "uncertainty": Listed(
-            "uncertainty", "Propagate uncertainties of inputs to the pull-off force."
-        ),
-        "theory jkr": Listed("theory_contacts", "Detachment of an elastic sphere (JKR)."),
-        "theory maugis": Listed(
-            "theory_contacts", "Detachment of an elastic sphere, forces of any range."
-        ),
-        "theory disc": Listed("theory_contacts", "Detachment of a disc (Kendall)."),
-        "theory punch": Listed("theory_punch", "Flat punch on a layer: stress, or thickness."),
-        "theory persson-brener": Listed("theory_cracks", "Surface energy of a moving crack."),
-        "theory greenwood": Listed(
-            "theory_cracks", "Surface energy of a moving crack with a cohesive zone."
-        ),
-        "theory steady-crack": Listed(
-            "theory_cracks", "Surface energy of a steady crack with its whole traction law."
-        ),
-        "theory crack-contact": Listed(
-            "theory_contacts", "Compute a contact history with the steady-crack contact model."
-        ),
+        "theory crack-contact": ("theory_contacts", "Contact history by the steady-crack model."),
     },
     "Read measured data": {
-        "material fit": Listed(
-            "fit_material", "Fit a material to a DMA, relaxation or creep test."
-        ),
-        "material list": Listed("library", "List the published materials."),
-        "material show": Listed("passports", "Show a material passport or a published material."),
-        "material convert": Listed("passports", "Convert a passport."),
-        "material export": Listed("passports", "Export a material for another program."),
-        "test read": Listed("rig_tests", "Read tack tests or force curves."),
-        "identify slow": Listed("identify", "Identify the work of adhesion from a slow test."),
-        "identify rates": Listed(
-            "identify", "Identify the interface from tests at several speeds."
-        ),
-        "identify edge": Listed(
-            "identify",
-            "Identify the plain edge law from pull-offs at several speeds, without a dynamic test.",
-        ),
-        "identify approach": Listed(
-            "identify_approach", "Bound the range of attraction by the approach."
-        ),
-        "identify curves": Listed(
-            "identify_curves", "Fit work of adhesion and modulus to every curve of a folder."
-        ),
-        "identify dwell": Listed("identify_dwell", "Identify the growth with contact time."),
-        "forecast": Listed("forecast", "Forecast pull-off forces from a measured rate series."),
-        "next-test": Listed("next_test", "Rank tests by how much each narrows a forecast."),
-        "report": Listed("forecast", "Write a report of a rate series as a web page."),
+        "material fit": ("fit_material", "Fit a material to a DMA, relaxation or creep test."),
+        "material list": ("library", "List the published materials."),
+        "material show": ("passports", "Show a material passport or a published material."),
+        "material convert": ("passports", "Convert a passport."),
+        "material export": ("passports", "Export a material for another program."),
+        "test read": ("rig_tests", "Read tack tests or force curves."),
+        "identify slow": ("identify", "Identify the work of adhesion from a slow test."),
+        "identify rates": ("identify", "Identify the interface from tests at several speeds."),
+        "identify edge": ("identify", "Identify the plain edge law, without a dynamic test."),
+        "identify approach": ("identify_approach", "Bound the range by the approach."),
+        "identify curves": ("identify_curves", "Fit work and modulus to every curve of a folder."),
+        "identify dwell": ("identify_dwell", "Identify the growth with contact time."),
+        "forecast": ("forecast", "Forecast pull-off forces from a measured rate series."),
+        "next-test": ("next_test", "Rank tests by how much each narrows a forecast."),
+        "report": ("forecast", "Write a report of a rate series as a web page."),
     },
     "Design": {
-        "design": Listed("design", "Find radius, preload, pads and speeds for wanted forces."),
-        "array": Listed("array", "Pull an array of pads off."),
-        "window": Listed("window", "Determine where a stamp picks an object and prints it."),
-        "control": Listed("control", "Tabulate the force for a controller; release at a force."),
+        "design": ("design", "Find radius, preload, pads and speeds for wanted forces."),
+        "array": ("array", "Pull an array of pads off."),
+        "window": ("window", "Determine where a stamp picks an object and prints it."),
+        "control": ("control", "Tabulate the force for a controller; release at a force."),
     },
     "Compute many cases": {
-        "sweep": Listed("sweep", "Simulate variations of a problem, one row for each case."),
-        "campaign inputs": Listed("campaign", "List the numbers of a problem that a plan can set."),
-        "campaign plan": Listed("campaign", "Describe the cases of a plan without running it."),
-        "campaign run": Listed("campaign", "Run the cases of a plan that have no result yet."),
-        "campaign status": Listed("campaign", "Show the progress of a campaign."),
-        "campaign merge": Listed("campaign", "Merge several campaigns into one."),
-        "campaign export": Listed("campaign", "Export the results as a table."),
-        "study": Listed("", "Run the operation of a study file with its options."),
+        "sweep": ("sweep", "Simulate variations of a problem, one row for each case."),
+        "campaign inputs": ("campaign", "List the numbers of a problem that a plan can set."),
+        "campaign plan": ("campaign", "Describe the cases of a plan without running it."),
+        "campaign run": ("campaign", "Run the cases of a plan that have no result yet."),
+        "campaign status": ("campaign", "Show the progress of a campaign."),
+        "campaign merge": ("campaign", "Merge several campaigns into one."),
+        "campaign export": ("campaign", "Export the results as a table."),
+        "study": ("", "Run the operation of a study file with its options."),
     },
     "Serve other programs": {
-        "app": Listed("", "Open the web page and the HTTP API."),
-        "export contact": Listed("export_contact", "Write a contact for other simulators, in C."),
-        "schema": Listed("schema", "Print the JSON schema of a problem."),
+        "app": ("", "Open the web page and the HTTP API."),
+        "export contact": ("export_contact", "Write a contact for other simulators, in C."),
+        "schema": ("schema", "Print the JSON schema of a problem."),
     },
 }
 COMMANDS = {name: each for commands in SECTIONS.values() for name, each in commands.items()}
 
 
-def _word(name: str) -> str:
-    """Return the request of a command: those of indenters have one."""
-    return name if COMMANDS[name].indenter is None else name.partition(" ")[0]
-
-
-OPERATIONS = {_word(name): each.module for name, each in COMMANDS.items() if each.module}
+OPERATIONS = {name: module for name, (module, _) in COMMANDS.items() if module}
 
 
 def operations() -> dict[str, "type[Request]"]:

@@ -7,8 +7,9 @@ from typing import Any, ClassVar
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
+from .options import csv_file, file_name, picture
 from .parts.record_words import read
-from .request import Answer, Caller, Request, csv_file, file_name, picture
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
 
@@ -42,12 +43,7 @@ class OfArray(Request):
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""
         from viscotack.design import read_array
-        from viscotack.design.arrays import (
-            array_yield,
-            holding,
-            preload_after,
-            pull_array,
-        )
+        from viscotack.design.arrays import array_yield, holding, preload_after, pull_array
         from viscotack.plot.array import draw_array
 
         from .parts.tables import rows_as_csv

@@ -7,18 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from viscotack.errors import InputError
 
 from .flags import INDENTERS
-from .request import (
-    Answer,
-    Caller,
-    File,
-    Output,
-    Request,
-    contact,
-    file_name,
-    number,
-    option,
-    switch,
-)
+from .options import File, Output, contact, csv_file, file_name, number, option, switch
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress, Store
@@ -33,10 +23,6 @@ _OF_PLANS = "a plan names other files, and Python files that are executed"
 _STOPPED, _SOME_FAILED = 1, 4
 
 AFolder = Annotated[Path, File("The folder of a campaign.", metavar="DIR", argument=True)]
-
-
-def _csv(words: str, name: str = "csv") -> Output:
-    return Output(name, words, endings=(".csv",))
 
 
 class Inputs(Request):
@@ -79,7 +65,7 @@ class DescribePlan(Request):
     """
 
     word: ClassVar = "campaign plan"
-    outputs: ClassVar = (_csv("Write the cases as a table; - is standard output."),)
+    outputs: ClassVar = (csv_file("Write the cases as a table."),)
     takes_own: ClassVar = True
     local: ClassVar = _OF_PLANS
 
@@ -259,10 +245,10 @@ class Export(Request):
 
     word: ClassVar = "campaign export"
     outputs: ClassVar = (
-        _csv("Write a table; - is standard output."),
+        csv_file(),
         Output("parquet", "Write a Parquet file.", "binary", endings=(".parquet",)),
         Output("mat", "Write a MATLAB file.", "binary", endings=(".mat",)),
-        _csv("Write the failures.", "failures"),
+        csv_file("Write the failures.", "failures"),
     )
     local: ClassVar = _OF_FOLDERS
 

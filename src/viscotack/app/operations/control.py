@@ -7,18 +7,9 @@ from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
+from .options import Output, contact, csv_file, number, option, picture
 from .parts.record_words import read, rows_of
-from .request import (
-    Answer,
-    Caller,
-    Output,
-    Request,
-    contact,
-    csv_file,
-    number,
-    option,
-    picture,
-)
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
 if TYPE_CHECKING:

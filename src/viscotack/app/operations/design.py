@@ -1,15 +1,14 @@
 """The operation ``design``: what to build for wanted forces."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.units import readable
 
+from .options import csv_file, file_name, option, picture
 from .parts.record_words import read
 from .predict import OF_METHOD
-from .request import Answer, Caller, Request, csv_file, file_name, option, picture
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
 
@@ -68,7 +67,7 @@ class OfDesign(Request):
         )
         rows = [_row(one) for one in found.candidates]
         front = [_front_row(one) for one in found.front]
-        warned = [_cautions(one.choice, stated) for one in found.candidates]
+        warned = [stated.cautions(one.choice) for one in found.candidates]
         return Answer(
             found,
             data=lambda: _record(found, rows, front) | {"cautions": warned},
@@ -136,24 +135,6 @@ def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]])
     }
 
 
-def _cautions(choice: Any, stated: Any) -> list[str]:
-    """Return the cautions on the forces of a design, each with its speeds."""
-    from viscotack.design.fast import SURROGATES, FastTier
-    from viscotack.design.margins import pad_of
-    from viscotack.prediction import cautions_on
-
-    fast = FastTier(stated.materials, stated.traction, SURROGATES)
-    passport, found = stated.passports.get(choice.material), {}
-    for name, speed in (("hold", choice.hold_speed), ("release", choice.release_speed)):
-        if speed is None:
-            continue
-        # without its backing, whose compliance changes the speed of the edge little
-        pad = replace(pad_of(choice, speed, bonded=stated.space.bonded), backing=None)
-        for words in cautions_on(fast.problem(pad), passport=passport):
-            found.setdefault(words, []).append(name)
-    return [f"to {' and '.join(names)}: {words}" for words, names in found.items()]
-
-
 _VERDICTS = {
     True: "the targets are met, by simulation",
     False: "the targets are not met",
@@ -163,7 +144,7 @@ _VERDICTS = {
 
 def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> dict[str, Any]:
     """Return what the text says of a record: the front has a table of its own."""
-    words = [_VERDICTS[found.meets], *(_limit_words(each) for each in found.excluded)]
+    words = [_VERDICTS[found.meets], *(each.words for each in found.excluded)]
     if found.meets is False and not found.excluded and found.best.run is None:
         words.append(
             "each target alone is within reach, but no design between the bounds meets all"
@@ -176,17 +157,3 @@ def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> d
         "d ln P/d ln x": {f"of {name}": dict(each) for name, each in found.elasticities.items()},
         "cautions": [*warned, OF_METHOD],
     }
-
-
-def _limit_words(limit: Any) -> str:
-    """Return a bound that excludes a target as a line."""
-    unit = {"ratio": "1", "work": "J"}.get(limit.target, "N")
-    end = ("at least", "at most")[limit.target == "release"]
-    reach = ("at most", "at least")[limit.target == "release"]
-    wanted, reached = (readable(x, unit) for x in (limit.wanted, limit.reach))
-    cause = {"solid": "the solid permits", "speeds": "designs between the bounds reach"}
-    target = limit.target.replace("_", " ")
-    return (
-        f"out of reach: {target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
-        f"{limit.why}"
-    )

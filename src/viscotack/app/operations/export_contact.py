@@ -2,7 +2,8 @@
 
 from typing import Any, ClassVar
 
-from .request import Answer, Caller, Request, contact, main_file, option
+from .options import contact, main_file, option
+from .request import Answer, Caller, Request
 
 
 class ExportContact(Request):

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 
+from .options import file_name, main_file, number, option, picture, quoted
 from .parts.dma import Dma
 from .parts.shifting import Shifting
-from .request import Answer, Caller, file_name, main_file, number, option, picture, quoted
+from .request import Answer, Caller
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport
@@ -102,13 +103,11 @@ class FitMaterial(Dma, Shifting):
         from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
 
         measured = self.measured(tuple(caller.file(each) for each in self.files))
-        if isinstance(measured, FrequencySweeps):
-            data, shift, cautions = self.swept(measured, caller)
-        else:
+        if not isinstance(measured, FrequencySweeps):
             first = measured[0] if isinstance(measured, tuple) else measured
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
             self._refuse_of_sweeps(f"for the {found} test in the file")
-            data, shift, cautions = self.stepped(measured, caller)
+        data, shift, cautions = self.at_one_temperature(measured, caller)
         known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
         report = fit(
             data,
@@ -152,7 +151,6 @@ def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
 
     issued = passport is not None
     return {
-        "model": report.model,
         "notes": report.observed.source.notes,
         "table": material_table(report.material) if issued else None,
         "passport": passport_text(passport) if issued else None,

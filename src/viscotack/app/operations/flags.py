@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from .request import Caller, quoted
+from .options import quoted
+from .request import Caller
 
 if TYPE_CHECKING:
     from .statement import Statement
@@ -106,7 +107,11 @@ FLAGS: Mapping[str, Flag] = {
         indenters=("profile",),
         metavar="FILE.csv",
     ),
-    "modulus_ratio": Flag("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio", "-"),
+    "modulus_ratio": Flag(
+        "Rubbery over glassy modulus k, up to 1.",
+        "material.modulus_ratio",
+        "material.modulus_ratio",
+    ),
     "exponent": Flag(
         "Exponent n of the modified power law.", "material.exponent", "material.exponent"
     ),
@@ -341,20 +346,9 @@ def material_table(
         of = "glassy_modulus" if name == "modulus_ratio" else name
         if name in said and of not in cards(kind):
             raise InputError(f"a solid {word} has no {name}; leave it out", field=name)
-        if name in said and name != "modulus_ratio":
+        if name in said:
             table[name] = said[name]
-    if "modulus_ratio" in said and not in_si:
-        table["modulus_ratio"] = said["modulus_ratio"]
-    if in_si:
-        table |= {"poisson_ratio": 0.5} if "poisson_ratio" not in said else {}
-        if "modulus_ratio" in said and "rubbery_modulus" in said:
-            ratio = parse(said["modulus_ratio"], "1")
-            if not 0 < ratio <= 1:
-                raise InputError(
-                    f"modulus_ratio must lie in (0, 1], got {ratio:g}", field="modulus_ratio"
-                )
-            table["glassy_modulus"] = f"{parse(said['rubbery_modulus'], 'Pa') / ratio!r} Pa"
-    return table
+    return ({"poisson_ratio": 0.5} if in_si else {}) | table
 
 
 def needs_of(words: str, nouns: Any, *, in_si: bool = False) -> list[str]:
@@ -372,23 +366,20 @@ def needs_of(words: str, nouns: Any, *, in_si: bool = False) -> list[str]:
 
 def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any) -> None:
     """Raise InputError that lists all missing flags."""
-    solid = said.get("material", _usual(word))
-    kind = nouns.materials.get(solid.partition(":")[0])
-    elastic, moved = solid == "elastic", "move" in said
+    solid, punch = said.get("material", _usual(word)), word == "punch"
     of_solid = needs_of(solid, nouns, in_si=in_si)
+    # of some, one is enough
+    needed: list[tuple[str, ...]] = [(name,) for name in of_solid]
     if in_si:
-        needed = ["half_width" if word == "punch" else "radius", "work_of_adhesion", *of_solid]
-        modulus, gap, thickness = "rubbery_modulus", "equilibrium_gap", []
-        if word == "punch":
-            modulus, gap, thickness = "contact_modulus", "strength", ["thickness"]
-        needed += [modulus] if kind and "contact_modulus" not in said else []
-        needed += [] if {"equilibrium_gap", "strength"} & said.keys() else [gap]
-        needed += thickness
-        needed += [] if moved else ["speed"]
+        needed = [("half_width" if punch else "radius",), ("work_of_adhesion",), *needed]
+        if solid.partition(":")[0] in nouns.materials:
+            needed.append(("rubbery_modulus", "contact_modulus"))
+        needed += [("equilibrium_gap", "strength"), ("speed", "move")]
     else:
-        sizes = {"punch": ["size", "thickness", "cohesion"]}.get(word, ["tabor"])
-        tip = ["profile_exponent"] if word == "profile" and "points" not in said else []
-        needed = [*sizes, *tip, *of_solid, *([] if moved or elastic else ["rate"])]
+        needed = [("size",), ("cohesion",), *needed] if punch else [("tabor",), *needed]
+        needed += [("profile_exponent", "points")] * (word == "profile")
+        needed += [] if solid == "elastic" else [("rate", "move")]
+    needed += [("thickness",)] * punch
     if "bonded" in said and "thickness" not in said:
         raise InputError("bonded needs a layer; give its thickness as well", field="bonded")
     if "points" in said and "profile_exponent" in said:
@@ -396,7 +387,7 @@ def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any)
     starts = [name for name in _STARTS if name in said]
     of = [name for name in _STARTS if word in FLAGS[name].indenters]
     one_of = f"exactly one of {quoted(of)}"
-    if missing := [name for name in needed if name not in said]:
+    if missing := [names[0] for names in needed if not said.keys() & set(names)]:
         more = "" if starts else f"; also give {one_of}"
         why = "" if "material" in said or in_si else f" for the material {solid}, the usual one"
         why = why if set(missing) & set(of_solid) else ""

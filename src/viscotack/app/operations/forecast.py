@@ -9,10 +9,11 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
+from .options import File, csv_file, main_file, number, picture, text
 from .parts.record_words import read
 from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
-from .request import Answer, Caller, File, Request, csv_file, main_file, number, picture, text
+from .request import Answer, Caller, Request
 from .simulate import HowLong
 
 _MOST = 50  # speeds between two ends

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
 from viscotack.errors import InputError
 
+from .options import Number, main_file, named, number, option, picture, switch
 from .parts.layer import OnLayer
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, Number, main_file, named, number, option, picture, switch
+from .request import Answer, Caller
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -204,7 +205,6 @@ class IdentifyRates(Series, OnLayer):
         are written to it.
         """
         from viscotack.identify import identify_rates
-        from viscotack.identify.approach import range_bound
         from viscotack.identify.computed import Computed
         from viscotack.identify.rate_series import series_of
         from viscotack.model.materials.passport import Passport
@@ -220,17 +220,11 @@ class IdentifyRates(Series, OnLayer):
             solid = solid.moved_to(self.temperature)
         found = self.survey(caller)
         names = ("temperature", "temperature_uncertainty", "curves", "growth", "history")
-        # the approach is that of a sphere on a half-space
-        bound = None
-        if self.thickness is None:
-            material = solid.material if isinstance(solid, Passport) else solid
-            modulus = material.contact_modulus
-            bound = range_bound(found.cycles, self.radius, modulus, self.level)
         series = series_of(
             found,
             solid,
             body=self.body,
-            range_bound=bound,
+            bounded=True,
             **self.given,
             **{name: getattr(self, name) for name in names},
         )

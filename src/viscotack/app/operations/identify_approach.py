@@ -4,10 +4,11 @@ from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
+from .options import named, number
 from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import solid_of
-from .request import Answer, Caller, named, number
+from .request import Answer, Caller
 
 
 class IdentifyApproach(Rig):

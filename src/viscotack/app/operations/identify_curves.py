@@ -5,8 +5,9 @@ from typing import Any, ClassVar, Literal
 from viscotack.errors import InputError
 
 from .identify import Level, Radius
+from .options import csv_file, number, option, picture
 from .parts.rig import Rig, refusals
-from .request import Answer, Caller, csv_file, number, option, picture
+from .request import Answer, Caller
 
 
 class IdentifyCurves(Rig):

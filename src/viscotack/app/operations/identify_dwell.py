@@ -3,10 +3,11 @@
 from typing import Any, ClassVar
 
 from .identify import Level, Radius
+from .options import picture
 from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, picture
+from .request import Answer, Caller
 
 
 class IdentifyDwell(Rig):

@@ -6,9 +6,10 @@ from typing import Annotated, Any, ClassVar
 from viscotack.errors import InputError
 
 from .forecast import StudyFile, fitted, speeds_of
+from .options import Number, csv_file, number, option, picture, text
 from .parts.record_words import read
 from .parts.rig import refusals
-from .request import Answer, Caller, Number, Request, csv_file, number, option, picture, text
+from .request import Answer, Caller, Request
 from .simulate import HowLong
 
 Loads = Annotated[

@@ -8,20 +8,9 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
+from .options import main_file, named, number, option, quoted, switch, text, two_of
 from .parts.solid import APassport, passport_of
-from .request import (
-    Answer,
-    Caller,
-    Request,
-    main_file,
-    named,
-    number,
-    option,
-    quoted,
-    switch,
-    text,
-    two_of,
-)
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.model.materials.conversion import PronyForm
@@ -58,22 +47,6 @@ class _Converted(Request):
     tolerance: float = number("Largest relative error of the series.", default=3e-4)
     pressure_unit: str | None = option("Unit of moduli in the other program, MPa.", example="MPa")
     time_unit: str | None = option("Unit of times in the other program, s.", example="s")
-
-    def series(self, passport: "Passport") -> "PronyForm":
-        """Return the Prony series of a passport's material."""
-        from viscotack.model.materials.conversion import prony_form
-        from viscotack.model.materials.words import word_of
-
-        bounds = self.frequencies or passport.frequencies
-        if bounds is None and word_of(passport.material) in ("prony", "sls"):
-            unit = passport.material.time_unit
-            bounds = 1e-3 / unit, 1e3 / unit
-        if bounds is None:
-            raise InputError(
-                f"{passport.name} does not say where it was measured; say where the series must "
-                'hold, frequencies "1 mHz,1 MHz"'
-            )
-        return prony_form(passport.material, frequencies=bounds, tolerance=self.tolerance)
 
 
 class ShowMaterial(Request):
@@ -134,10 +107,8 @@ class ConvertMaterial(_Converted):
                 raise InputError(
                     f"{quoted(given)} cannot be used without `code`, the other program"
                 )
-        elif isinstance(self.source, Passport):
-            raise InputError(f"{self.source.name} is a passport; `code` takes a file")
-        elif self.source in MATERIALS:
-            raise InputError(f"{self.source} is a published material; `code` takes a file")
+        elif isinstance(self.source, Passport) or self.source in MATERIALS:
+            raise InputError("`code` takes a file of another program, not a material of ours")
         elif (self.pressure_unit is None) != (self.time_unit is None):
             raise InputError("give both `pressure_unit` and `time_unit`")
         elif constants and self.code in _STATING:
@@ -158,7 +129,7 @@ class ConvertMaterial(_Converted):
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
         if self.prony:
-            passport = self._as_series(passport)
+            passport, _ = passport.as_prony(self.frequencies, self.tolerance)
         files = {"output": lambda target: write_passport(passport, target)}
         return replace(_answer(passport, caller), files=files)
 
@@ -182,16 +153,6 @@ class ConvertMaterial(_Converted):
             raise InputError(f"{file}: {error}") from None
         origin = Origin(file=file.name, format=code, made_by=f"viscotack {__version__}")
         return Passport(name=file.stem, material=solid, origin=origin)
-
-    def _as_series(self, passport: "Passport") -> "Passport":
-        from viscotack.model.materials.words import word_of
-
-        form = self.series(passport)
-        note = f"Prony series of the {word_of(passport.material)}, error {form.error:.1e}"
-        origin = replace(passport.origin, notes=(*passport.origin.notes, note))
-        return replace(
-            passport, material=form.material, frequencies=form.frequencies, origin=origin
-        )
 
 
 class ExportMaterial(_Converted):
@@ -228,7 +189,8 @@ class ExportMaterial(_Converted):
         passport = passport_of(self.passport, caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
-        form, shift = self.series(passport), passport.shift
+        _, form = passport.as_prony(self.frequencies, self.tolerance)
+        shift = passport.shift
         if shift is not None and passport.temperature is not None:
             shift = shift.at_reference(passport.temperature)
         text = exported(

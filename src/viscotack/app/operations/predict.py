@@ -9,20 +9,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 
+from .options import Output, contact, csv_file, number, picture, quoted, rows, switch
 from .parts.record_words import units_of
-from .request import (
-    Answer,
-    Caller,
-    Output,
-    Request,
-    contact,
-    csv_file,
-    number,
-    picture,
-    quoted,
-    rows,
-    switch,
-)
+from .request import Answer, Caller, Request
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -189,7 +178,7 @@ class Predict(Request):
             return predict_file(caller.file(self.cases), self.confidence, caller.tell)
         from viscotack.prediction.tiers import SOON
 
-        from .parts.predict_changes import predict_changes
+        from .parts.predict_table import predict_changes
 
         assert self.cases is not None, "checked before"
         return predict_changes(

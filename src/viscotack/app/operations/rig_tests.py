@@ -4,9 +4,10 @@ from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
+from .options import Output, csv_file, number, picture
 from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
-from .request import Answer, Caller, Output, csv_file, number, picture
+from .request import Answer, Caller
 
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
 _LARGEST_WORK = 10.0
@@ -103,23 +104,8 @@ class ReadTests(Rig, ShiftLaw):
                 "curves": [retraction(cycle) for cycle in found.cycles],
                 "refused": refused,
             },
-            notes=(*refusals(found), *_unread_names(found)),
+            notes=(*refusals(found), *found.named_temperatures),
         )
-
-
-def _unread_names(found: Any) -> tuple[str, ...]:
-    """Return a note if temperatures in file names were not read and differ."""
-    from viscotack.lab.formats.tables import kelvins_in_name
-
-    files = {one.source.path for one in found.cycles if one.temperature is None}
-    named = {kelvin for file in files for kelvin in kelvins_in_name(file)}
-    if len(named) < 2:
-        return ()
-    return (
-        f"the names of files contain temperatures from {min(named) - 273.15:.4g} to "
-        f"{max(named) - 273.15:.4g} C, and tests are not separated by them; add "
-        "--temperature-in-name",
-    )
 
 
 # Of a cycle in the text; all numbers are in the tables.

@@ -7,7 +7,8 @@ from typing import Any, ClassVar, Literal
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .request import Answer, Caller, Output, Request, csv_file, file_name, option, picture, switch
+from .options import Output, csv_file, file_name, option, picture, switch
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
 # Frames of a film, by default.

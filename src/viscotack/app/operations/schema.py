@@ -3,7 +3,8 @@
 import json
 from typing import ClassVar
 
-from .request import Answer, Caller, Request, switch
+from .options import switch
+from .request import Answer, Caller, Request
 
 
 class Schema(Request):

@@ -10,20 +10,9 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
 
 from .flags import INDENTERS
+from .options import Option, Output, contact, csv_file, file_name, number_of, picture, switch
 from .parts.record_words import units_of
-from .request import (
-    Answer,
-    Caller,
-    Option,
-    Output,
-    Request,
-    contact,
-    csv_file,
-    file_name,
-    number_of,
-    picture,
-    switch,
-)
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.result import Result
@@ -55,9 +44,22 @@ _FILES = (
 
 
 class Simulate(Request):
-    """Simulate the detachment of a sphere, cone, other profile, or punch on a layer.
+    """Pull a sphere, a cone or another profile, a disc, or a punch on a layer off a soft body.
 
-    The problem is given by dimensionless numbers, or in SI by a case file.
+    The problem is stated by dimensionless numbers, by numbers in SI, or by a file in SI.
+    E0 is the rubbery modulus, E0* = E0/(1 - nu^2), dg0 the work of adhesion, h0 the equilibrium
+    gap, sigma0 the strength of the interface, tau0 the time of the material, R the radius of the
+    sphere. A profile has an equivalent radius, and a disc of the radius a, with a sharp edge,
+    R = a sqrt(a E0*/dg0). A punch is in plane strain, a0 = pi E0* dg0/(2 sigma0^2). A shape of
+    your own is stated by a file, and by --with.
+
+    By numbers: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    --preload 73 --rate 316.23
+
+    A punch: viscotack simulate punch --size 64.85 --thickness 3.24 --cohesion 0.05
+    --modulus-ratio 0.1 --preload 1 --rate 10
+
+    In SI by a file: viscotack simulate case examples/from_toml/cone.toml
     """
 
     word: ClassVar = "simulate"
@@ -73,58 +75,12 @@ class Simulate(Request):
         ),
     )
     takes_own: ClassVar = True
-    helps: ClassVar = {
-        "sphere": """Pull a rigid sphere off a soft viscoelastic half-space.
-
-    The problem is stated by dimensionless numbers, or in SI by a file. R is the sphere radius,
-    E0 the rubbery modulus, dg0 the work of adhesion, h0 the equilibrium gap, tau0 the time of the
-    material.
-
-    Example: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
-    --preload 73 --rate 316.23
-    """,
-        "punch": """Pull a rigid flat punch off a soft viscoelastic layer.
-
-    Plane strain. The problem is stated by dimensionless numbers, or in SI by a file. a is the half
-    width of the punch, b the thickness of the layer, E0* the rubbery contact modulus, dg0 the work
-    of adhesion, sigma0 the strength of the interface, h0 the equilibrium gap, tau0 the time of the
-    material, and a0 = pi E0* dg0/(2 sigma0^2).
-
-    Example: viscotack simulate punch --size 64.85 --thickness 3.24 --cohesion 0.05
-    --modulus-ratio 0.1 --preload 1 --rate 10
-    """,
-        "profile": """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic
-    half-space.
-
-    By dimensionless numbers, R being the equivalent radius (a measured profile by --points), or in
-    SI by a file that has a table [profile] in place of [sphere]: `slope` of a cone, or `exponent`,
-    and `height` at a radius `at_radius`.
-
-    Example: viscotack simulate profile examples/from_toml/cone.toml
-    """,
-        "disc": """Pull a disc, the flat end of a cylinder, off a soft viscoelastic half-space or
-    a layer.
-
-    The problem is given by dimensionless numbers with R = a sqrt(a E0*/dg0), a the radius of the
-    disc, so that the Tabor number is sqrt(a dg0/E0*)/h0; the edge is sharp. In SI it is given by a
-    file with a table [disc] in place of [sphere]: `radius`, and `edge_width` and `edge_height` of a
-    rounded edge. Kendall's pull-off force is 1.064 of the unit 1.5 pi R dg0.
-
-    Example: viscotack simulate disc --tabor 8 --modulus-ratio 0.1 --exponent 0.8 --preload 0
-    --rate 10
-    """,
-        "case": """Simulate the problem of a case file in SI, with any indenter.
-
-    For a user-defined shape, the table has its name and --with gives its Python file.
-
-    Example: viscotack simulate case examples/from_toml/cone.toml
-    """,
-    }
-
     problem: Any = contact(
-        "The contact and the moves of the machine.",
+        "The indenter, sphere, punch, profile or disc, and its flags; or a problem in SI.",
+        metavar="sphere|punch|profile|disc|CASE.toml",
         indenters=INDENTERS,
-        spelling="commands",
+        spelling="word",
+        expected="give sphere, punch, profile or disc, or a file CASE.toml",
         default=...,
     )
     until: Until = "detached"
@@ -157,7 +113,6 @@ class Simulate(Request):
             until=self.until,
             time_limit=self.time_limit,
             whole=self.whole,
-            points="points" in caller.wants,
             profiles=self.profiles,
             sensitivities=self.sensitivities,
         )

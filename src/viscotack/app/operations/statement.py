@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError
 
 from .flags import INDENTERS, stated
-from .request import Caller, Contact, quoted
+from .options import Contact, quoted
+from .request import Caller
 
 if TYPE_CHECKING:
     from viscotack.model.materials.passport import Passport

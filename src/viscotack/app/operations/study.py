@@ -15,7 +15,8 @@ from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import is_standard_output
 
 from . import operation
-from .request import Named, Number, Request, option_of, options, request_of
+from .options import Named, Number, option_of
+from .request import Request, options, request_of
 
 _OPERATION, _WRITE = "operation", "write"
 

@@ -10,13 +10,13 @@ from viscotack.model.problem import RoughCase
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
+from .options import contact, csv_file, rows
 from .parts.record_words import units_of
-from .request import Answer, Caller, Request, contact, csv_file, rows
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:
     from viscotack.campaign import CaseSettings
-    from viscotack.model.problem.changes import Changes
     from viscotack.model.problem.kinds import Kind
 
 # Exit status where some cases have no result.
@@ -57,10 +57,11 @@ class Sweep(Request):
     time_limit: Limit = 120.0
 
     def answer(self, caller: Caller) -> Answer:
-        """Simulate one case after the other, telling ``share`` and the new ``rows``."""
+        """Simulate one case after the other, telling ``share``."""
         from viscotack.campaign import CaseSettings
         from viscotack.model.problem.changes import changes_of
 
+        from .parts.predict_table import answered_rows, shown_rows
         from .parts.tables import rows_as_csv
 
         stated, cases = self.stated(caller), caller.rows(self.cases)
@@ -69,51 +70,43 @@ class Sweep(Request):
             raise InputError("all cases must replace the same numbers of the problem")
         changes = changes_of(stated.problem, cases[0])
         kind = changes.kind()
-        inputs_of_rows = [_inputs(changes, number, row) for number, row in enumerate(cases, 1)]
-        settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
-        rows: list[dict[str, Any]] = []
         warnings: list[str] = []
-        for number, inputs in enumerate(inputs_of_rows, 1):
-            carried = changes.carried_of(cases[number - 1])
-            rows.append(_row(kind, inputs, settings) | ({"carried": carried} if carried else {}))
-            warnings += [f"case {number}: {words}" for words in changes.unusual(inputs or {})]
-            words = f"{number} of {len(cases)} cases done"
-            caller.tell({"share": number / len(cases), "rows": rows[-1:], "words": words})
-        failed = sum(bool(row["reason"]) for row in rows if row["inputs"] is not None)
+        for number, row in enumerate(cases, 1):  # all are read before the first is simulated
+            try:
+                inputs = {} if changes.is_empty(row) else changes.values(row)
+            except InputError as error:
+                raise InputError(f"case {number}: {error}") from None
+            warnings += [f"case {number}: {words}" for words in changes.unusual(inputs)]
+        settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
+        found = answered_rows(
+            changes,
+            cases,
+            lambda row: _row(kind, changes.values(row), settings),
+            caller.tell,
+            "reason",
+        )
+        failed = sum(bool(row["reason"]) for row in found if row["inputs"] is not None)
         return Answer(
-            rows,
-            data=lambda: {"rows": rows, "failed": failed},
-            words=lambda: _shown(changes, rows, failed),
+            found,
+            data=lambda: {"rows": found, "failed": failed},
+            words=lambda: {"rows": shown_rows(changes, found, "reason"), "failed": failed},
             units={} if rough else units_of(stated.problem.outputs),
-            files={"csv": rows_as_csv(_flat(cases, rows))},
+            files={"csv": rows_as_csv(_flat(cases, found))},
             notes=(*stated.notes, *changes.notes, *warnings),
             status=_SOME_FAILED if failed else 0,
         )
 
 
-def _inputs(changes: "Changes", number: int, row: Mapping[str, Any]) -> dict[str, float] | None:
-    """Return the replaced numbers of a row; None for an empty one."""
-    if changes.is_empty(row):
-        return None
-    try:
-        return changes.values(row)
-    except InputError as error:
-        raise InputError(f"case {number}: {error}") from None
-
-
-def _row(kind: "Kind", inputs: dict[str, float] | None, settings: "CaseSettings") -> dict[str, Any]:
+def _row(kind: "Kind", inputs: dict[str, float], settings: "CaseSettings") -> dict[str, Any]:
     """Return the row of a case: inputs, results, and the reason if it failed."""
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
-    from viscotack.campaign.listed import EMPTY
     from viscotack.model.problem.record import run_id
 
     from .parts.json_data import plain
 
     began = perf_counter()
     row: dict[str, Any] = {"inputs": inputs, "outputs": None, "reason": ""}
-    if inputs is None:
-        return row | {"reason": EMPTY, "wall_time_s": 0.0}
     try:
         problem = kind.problem(inputs)
         found = measure(problem, settings)
@@ -139,22 +132,7 @@ def _flat(
             **(row["outputs"] or {}),
             **case,  # of a problem without dimensions they are among the numbers too
             "reason": row["reason"],
-            "wall_time_s": row["wall_time_s"],
+            "wall_time_s": row.get("wall_time_s", 0.0),
         }
         for case, row in zip(cases, rows, strict=True)
     ]
-
-
-def _shown(changes: "Changes", rows: Sequence[Mapping[str, Any]], failed: int) -> dict[str, Any]:
-    """Return what the text says of the rows: the pull-off, or the reason why there is none."""
-    problem = changes.problem
-    name = "pull_off_force_N"
-    if not isinstance(problem, RoughCase):
-        name = f"pull_off_{problem.outputs.name_of('force')}"
-        unit = problem.outputs.observables[name].unit
-        name += "" if problem.scales() is None else f"_{unit.tail}"
-    shown = [
-        {"case": changes.words(row), name: (row["outputs"] or {}).get(name), "why": row["reason"]}
-        for row in rows
-    ]
-    return {"rows": shown, "failed": failed}

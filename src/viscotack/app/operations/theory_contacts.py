@@ -6,11 +6,12 @@ import numpy as np
 
 from viscotack.errors import InputError
 
+from .options import Number, contact, csv_file, number, picture, quoted
 from .parts.closed_form import closed_form
 from .parts.layer import OnLayer
 from .parts.record_words import read
 from .parts.tables import write_table
-from .request import Answer, Caller, Number, Request, contact, csv_file, number, picture, quoted
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,37 +39,12 @@ class Jkr(OnLayer):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
-        if self.thickness is not None:
-            return self._on_film()
-        from viscotack.theory import jkr
-
-        case = {
-            "radius": self.radius,
-            "contact_modulus": self.contact_modulus,
-            "work_of_adhesion": self.work_of_adhesion,
-        }
-        end, fold = jkr.pull_off(**case), jkr.instability(**case)
-        free = jkr.contact_radius_at_force(0.0, **case)
-        a = np.linspace(0.0, 1.5 * float(free), 400)
-        record = {
-            "pull_off_force_N": -end.force,
-            "contact_radius_at_pull_off_m": end.contact_radius,
-            "depth_at_pull_off_m": end.depth,
-            "work_to_pull_off_J": jkr.work_to_pull_off(**case),
-            "contact_radius_without_load_m": free,
-            "instability_depth_m": fold.depth,
-        }
-        curve = jkr.depth(a, **case), jkr.force(a, **case)
-        return closed_form(end, record, curve, ("depth [m]", "force [N]"))
-
-    def _on_film(self) -> Answer:
         from viscotack.model.geometry import HalfSpace, Layer, Sphere
         from viscotack.model.protocol import AtForce
         from viscotack.theory import film
         from viscotack.theory.elastic import relaxed
 
         body = self.body
-        assert isinstance(body, Layer), "it has a thickness"
         solid: Any = {
             "shape": Sphere(self.radius),
             "contact_modulus": self.contact_modulus,
@@ -77,8 +53,6 @@ class Jkr(OnLayer):
         end, fold = film.pull_off(body=body, **solid), film.instability(body=body, **solid)
         free = relaxed.contact(AtForce(0.0), body=body, **solid)
         assert free is not None, "every JKR contact has a state without load"
-        whole = film.pull_off(body=HalfSpace(), **solid)
-        limit = {"radius": self.radius, "work_of_adhesion": self.work_of_adhesion}
         record = {
             "pull_off_force_N": -end.force,
             "contact_radius_at_pull_off_m": end.contact_radius,
@@ -86,10 +60,14 @@ class Jkr(OnLayer):
             "work_to_pull_off_J": film.work_to_pull_off(body=body, **solid),
             "contact_radius_without_load_m": free.contact_radius,
             "instability_depth_m": fold.depth,
-            "over_half_space": end.force / whole.force,
-            "thin_limit_N": film.thin_limit(base=body.base, **limit),
-            "half_space_thickness_m": film.half_space_thickness(base=body.base, **solid),
         }
+        if isinstance(body, Layer):
+            limit = {"radius": self.radius, "work_of_adhesion": self.work_of_adhesion}
+            record |= {
+                "over_half_space": end.force / film.pull_off(body=HalfSpace(), **solid).force,
+                "thin_limit_N": film.thin_limit(base=body.base, **limit),
+                "half_space_thickness_m": film.half_space_thickness(base=body.base, **solid),
+            }
         a = np.linspace(0.0, 1.5 * float(free.contact_radius), 201)[1:]
         depth, force = relaxed.curve(body=body, **solid)
         return closed_form(end, record, (depth(a), force(a)), ("depth [m]", "force [N]"))

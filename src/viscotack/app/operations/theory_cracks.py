@@ -10,9 +10,10 @@ from viscotack.theory.crack.steady.comparison import THESIS_RATIO
 from viscotack.units import is_number, parse
 
 from .flags import LAW
+from .options import Number, file_name, number, option, picture, quoted, text
 from .parts.closed_form import closed_form
 from .parts.solid import Reduced
-from .request import Answer, Caller, Number, file_name, number, option, picture, quoted, text
+from .request import Answer, Caller
 
 if TYPE_CHECKING:
     from viscotack.theory import SteadyCrack

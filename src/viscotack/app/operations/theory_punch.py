@@ -1,30 +1,16 @@
 """The operation ``theory punch``: theory of a flat punch on a layer."""
 
 from collections.abc import Mapping
-from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.model.geometry import FlatPunch
 
-from .flags import FLAGS
+from .options import contact, number, option, picture, switch
 from .parts.record_words import read
-from .parts.solid import Reduced
-from .request import (
-    Answer,
-    Caller,
-    Contact,
-    file_name,
-    named,
-    number,
-    option,
-    option_of,
-    picture,
-    switch,
-)
-from .statement import statement
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.model.materials import Material
@@ -35,13 +21,9 @@ if TYPE_CHECKING:
 _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
 _SLOW, _FAST = 0.003, 0.99
-# Options of the problem that are those of `simulate punch`.
-_OF_PAD = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded", "tau0")
-_OF_PAD += tuple(Reduced.model_fields)
-_PUNCH = Contact("", indenters=("punch",), whole=False)
 
 
-class OfPad(Reduced):
+class OfPad(Request):
     """Flat punch on a layer: pull-off stress for a thickness, or thickness for a stress.
 
     A theory without simulation; its stress is up to 19 % above simulations. The problem is given in
@@ -55,39 +37,21 @@ class OfPad(Reduced):
     word: ClassVar = "theory punch"
     outputs: ClassVar = (picture("Draw that map."),)
 
-    case: Path | None = file_name(
-        "A problem in SI with units, instead of the flags of the problem; docs/input.md "
-        "describes it.",
-        metavar="CASE.toml",
-        argument=True,
-    )
-    half_width: float | None = number('Half width of the punch a, "1 mm".', "m", above=0)
-    thickness: float | None = number(
-        'Thickness of the layer b, "200 um": what does it hold?', "m", above=0
+    problem: Any = contact(
+        "The punch, its layer and its interface in SI; the start of the test does not matter.",
+        indenters=("punch",),
+        whole=False,
+        default=...,
     )
     stress: float | None = number(
-        'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?', "Pa", above=0
+        'In place of a thickness: wanted pull-off stress, "30 kPa": how thick must the layer be?',
+        "Pa",
+        above=0,
     )
-    speed: float | None = number('Retraction speed, "100 um/s".', "m/s", above=0)
-    contact_modulus: float | None = number('E0* = E0/(1 - nu^2), "1 MPa".', "Pa", above=0)
-    work_of_adhesion: float | None = number('dg0, "50 mJ/m^2".', "J/m^2", above=0)
-    strength: float | None = number('Of the interface, sigma0, "50 kPa".', "Pa", above=0)
-    bonded: float | None = number(FLAGS["bonded"].words, least=0, most=0.5)
-    material: Any = named(
-        "sls (also when left out): standard linear solid, tau0 is its retardation time. "
-        "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere.",
-        metavar="MATERIAL",
-    )
-    tau0: float | None = number('Time of the material, "1 ms" (not for prony:FILE).', "s", above=0)
     theory: Literal["greenwood", "persson-brener"] = option(
         "Theory of the moving crack.", default="greenwood"
     )
     map: bool = switch("Add to the JSON how the pad detaches by thickness and speed.")
-
-    def check(self) -> None:
-        """Refuse options that exclude each other."""
-        if self.thickness is not None and self.stress is not None:
-            raise InputError("give either thickness or stress, not both", field="stress")
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
@@ -112,43 +76,27 @@ class OfPad(Reduced):
 
     def _pad(self, caller: Caller) -> "tuple[Pad, Material, dict[str, float]]":
         """Return the pad and its solid in SI, and the requested numbers."""
-        problem = self._problem(caller)
-        wanted = {"thickness": self.thickness, "stress": self.stress, "speed": self.speed}
-        if self.case is not None:
-            wanted["speed"] = self.speed or problem.protocol.speed
-            if self.stress is None:
-                wanted["thickness"] = self.thickness or problem.body.thickness
-        wanted = {name: value for name, value in wanted.items() if value is not None}
+        said, given = self.problem, {"thickness", "speed"}
+        if isinstance(said, Mapping) and "indenter" in said and "case" not in said:
+            said = {name: x for name, x in said.items() if x is not None}
+            given &= said.keys()
+            # of what is not asked for, any number does
+            usual = {"thickness": said.get("half_width"), "speed": "1 m/s", "preload": "0 m"}
+            said = usual | said
+            if self.stress is not None and "thickness" in given:
+                raise InputError("give either thickness or stress, not both", field="stress")
+        problem: Any = self.model_copy(update={"problem": said}).stated(caller).problem
+        if problem.scales() is None or not isinstance(problem.geometry, FlatPunch):
+            raise InputError("theory punch needs a flat punch in SI")
+        numbers = {"thickness": problem.body.thickness, "speed": problem.protocol.speed}
+        wanted = {name: x for name, x in numbers.items() if name in given and x is not None}
+        if self.stress is not None:
+            wanted["stress"] = self.stress
         if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
             raise InputError(
                 'speed is missing, the retraction speed; for example "100 um/s"', field="speed"
             )
         return pad_of(problem), problem.material, wanted
-
-    def _problem(self, caller: Caller) -> Any:
-        """Return the problem of the case file, or of the options as `simulate punch` reads them."""
-        from viscotack.model.materials.library import MATERIALS
-        from viscotack.model.materials.passport import Passport
-
-        said: dict[str, Any] = {"indenter": "punch"}
-        for name in (*_OF_PAD, "thickness", "speed"):
-            value = getattr(self, name)
-            unit = getattr(option_of(OfPad.model_fields[name]), "unit", "1")
-            said[name] = value if value is None or unit == "1" else f"{value!r} {unit}"
-        passport = self.material if isinstance(self.material, Passport) else None
-        if passport is not None:
-            # a published material stands in for the object
-            said["material"] = MATERIALS[0]
-        if self.case is not None:
-            said |= {"case": str(self.case), "thickness": None, "speed": None}
-        else:
-            # the start does not matter to the theory, nor thickness and speed of a wanted stress
-            usual = {"thickness": said["half_width"], "speed": "1 m/s", "preload": "0 m"}
-            said = usual | {name: value for name, value in said.items() if value is not None}
-        problem: Any = statement(said, _PUNCH, caller).problem
-        if problem.scales() is None:
-            raise InputError(f"{self.case} states no units; this command needs a flat punch in SI")
-        return problem if passport is None else replace(problem, material=passport.material)
 
 
 def pad_of(problem: Any) -> "Pad":

@@ -10,43 +10,26 @@ from viscotack.units import is_number, readable
 
 from .flags import INDENTERS
 from .forecast import fitted
+from .options import contact, csv_file, file_name, named, number, option, picture, text
 from .parts.record_words import read
 from .parts.solid import passport_of
-from .request import (
-    Answer,
-    Caller,
-    Request,
-    contact,
-    csv_file,
-    file_name,
-    named,
-    number,
-    option,
-    picture,
-    text,
-)
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.prediction.uncertainty import Uncertainty
 
 
-def deviation_of(text: str) -> tuple[str, float]:
+def _deviation(value: Any) -> tuple[str, float]:
     """Return the path and the relative standard deviation of a text, "sphere.radius 2 %"."""
-    name, _, rest = text.strip().partition(" ")
+    name, _, rest = str(value).strip().partition(" ")
     rest = rest.strip()
     number = rest.removesuffix("%").strip()
     if not is_number(number):
         raise InputError(
             f'expected a number of the problem and its deviation, "sphere.radius 2 %", got '
-            f"{text!r:.60}"
+            f"{value!r:.60}"
         )
     return name, float(number) / (100 if rest.endswith("%") else 1)
-
-
-def _deviation(value: Any) -> str:
-    """Return the text of a deviation, which must have a path and a number."""
-    deviation_of(str(value))
-    return str(value)
 
 
 class OfUncertainty(Request):
@@ -72,7 +55,7 @@ class OfUncertainty(Request):
     problem: Any = contact(
         "The problem at its stated inputs.", indenters=INDENTERS, spelling="case", default=...
     )
-    scatter: tuple[str, ...] = text(
+    scatter: tuple[Any, ...] = text(
         'A number and its relative standard deviation, "protocol.speed 5 %".',
         metavar="TEXT",
         to=_deviation,
@@ -115,7 +98,7 @@ class OfUncertainty(Request):
 
         from .parts.tables import rows_as_csv
 
-        deviations = dict(deviation_of(text) for text in self.scatter)
+        deviations = dict(self.scatter)
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
         problem, sampled, times = self._known(caller)
@@ -164,7 +147,14 @@ class OfUncertainty(Request):
         if given and problem.scales() is None:
             raise InputError(f"`{given[0]}` needs a problem with dimensions, in SI")
         if self.passport is not None:
-            problem, sampled, times = self._of_passport(problem, caller)
+            from viscotack.model.materials.passport_uncertainty import known_of
+
+            passport = passport_of(self.passport, caller)
+            if self.temperature is not None:
+                passport = passport.moved_to(self.temperature)
+            problem = replace(problem, material=passport.material)
+            solids, times = known_of(passport, self.temperature_uncertainty)
+            sampled = {"material": solids} if solids else {}
         elif self.temperature is not None or self.temperature_uncertainty is not None:
             raise InputError("a temperature needs a passport, which has the shift of the times")
         elif stated.deviation > 0:
@@ -179,31 +169,6 @@ class OfUncertainty(Request):
             problem = replace(problem, traction=law)
             sampled["traction"] = interfaces(fit, _INTERFACES, seed=self.seed)
         return problem, sampled, times
-
-    def _of_passport(
-        self, problem: Any, caller: Caller
-    ) -> tuple[Any, dict[str, Any], dict[str, float]]:
-        """Return the problem on the material of the passport, its solids, and its times."""
-        from viscotack.model.materials.passport_uncertainty import allowed, shift_error
-
-        passport = passport_of(self.passport, caller)
-        if self.temperature is not None:
-            passport = passport.moved_to(self.temperature)
-        problem = replace(problem, material=passport.material)
-        solids, times = allowed(passport), {}
-        if (kelvin := self.temperature_uncertainty) is not None:
-            times["temperature"] = shift_error(passport, kelvin)
-            if not times["temperature"]:
-                raise InputError(
-                    f"{passport.name}: the temperature dependence of its times is unknown; omit "
-                    "`temperature_uncertainty`"
-                )
-        if not solids and not times:
-            raise InputError(
-                f"{passport.name}: the uncertainty of this material is unknown (no sampled solids "
-                "and no intervals); omit passport, or state scatter of its constants"
-            )
-        return problem, {"material": solids} if solids else {}, times
 
 
 # Number of interfaces sampled from a study.

@@ -6,8 +6,9 @@ from typing import Any, ClassVar
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
+from .options import csv_file, file_name, picture, switch
 from .parts.record_words import read
-from .request import Answer, Caller, Request, csv_file, file_name, picture, switch
+from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
 

@@ -24,8 +24,8 @@ export function answer(host, store) {
 
 export const bandOf = ({ band, error }) => shown(band || (error ? `numerical error ${percent(error)}` : ""));
 
-// "the case, [sphere] radius is missing; write for example radius = "5 mm"" -> its table, and words that fit a field.
+// "the problem, [sphere] radius is missing; write for example radius = "5 mm"" -> its table, and words that fit a field.
 export function refusalOf(refused) {
-  const [, table = "", rest] = /^the case(?:, \[([\w-]+)\])?:? ?(.*)/s.exec(refused) || [null, "", refused];
+  const [, table = "", rest] = /^the problem(?:, \[([\w-]+)\])?:? ?(.*)/s.exec(refused) || [null, "", refused];
   return { table, words: rest.replace(/write for example \w+ = "?([^"]*)"?/, "for example $1") };
 }

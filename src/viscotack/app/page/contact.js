@@ -46,7 +46,7 @@ export function contact(host, store) {
     const done = store.simulated, growing = ["queued", "running"].includes(run.state), stale = run.version !== store.version;
     state(run, growing, stale);
     curves(quick, run, growing, stale);
-    fill(drawing, [tables, quick.start], () => { const host = h("div"); host.innerHTML = setUp(tables, quick); return [host]; });
+    fill(drawing, tables, () => { const host = h("div"); host.innerHTML = setUp(tables); return [host]; });
     tell(quick, done);
     compare(quick, done);
     speed(quick, done);
@@ -82,7 +82,7 @@ export function contact(host, store) {
     const series = [], line = (one, more) => series.push({ kind: "line", x: one.depth, y: one.force, words: one.words, ...more });
     const crack = store.now("theory")?.crack;
     if (elastic) line(elastic, { colour: "c6", dash: true });
-    if (crack) line(crack, { colour: "c2", dash: !crack.applies, words: `theory: ${crack.words}` });
+    if (crack) line(crack, { colour: "c2", words: `theory: ${crack.words}` });
     else if (edge) line(edge, { colour: "c2", dash: !edge.applies, faint: !edge.applies, beside: !edge.applies, words: `theory: ${edge.words}${edge.applies ? "" : " (does not apply here)"}` });
     if (surrogate) {
       // the interval was measured at the pull-off, and is drawn there
@@ -128,12 +128,14 @@ export function contact(host, store) {
   }
 
   function speed(quick, done) {
-    const found = quick.speeds || store.now("theory")?.speeds, pull = done?.pull, { rig } = store;
-    const series = found ? ofSpeeds(found, quick.speeds ? "c1" : "c2") : [];
+    const found = store.theory?.speeds, known = store.now("theory"), pull = done?.pull, { rig } = store;
+    bySpeed.classList.toggle("stale", !known);
+    const series = found ? ofSpeeds(found) : [];
     if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
     if (rig) series.push(measured(rig));
     speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, series);
-    if (!found) { speeds.legend.textContent = "no theory, and nothing learned, answers at other speeds; a campaign does"; return; }
+    if (!found && known) { speeds.legend.textContent = "no theory, and nothing learned, answers at other speeds; a campaign does"; return; }
+    if (!found) return;
     const away = found.speed.map((x) => Math.abs(Math.log(x / found.here)));
     speeds.point(found.here, pull ?? found.force[away.indexOf(Math.min(...away))], "this case");
   }
@@ -168,5 +170,5 @@ export function contact(host, store) {
 }
 
 // The pull-off at other speeds with its band, and what was measured there.
-export const ofSpeeds = ({ speed: x, low, high, force: y, words }, colour) => [{ kind: "band", x, low, high, colour, words: "band of 90 % of cases" }, { kind: "line", x, y, colour, words }];
+export const ofSpeeds = ({ speed: x, low, high, force: y, words }, colour = words === "surrogate" ? "c1" : "c2") => [{ kind: "band", x, low, high, colour, words: "band of 90 % of cases" }, { kind: "line", x, y, colour, words }];
 export const measured = ({ curves }) => ({ kind: "points", x: curves.map(({ speed }) => speed), y: curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });

@@ -10,10 +10,10 @@ const squash = (value, low, high) => (value > 0 ? Math.min(Math.max(Math.log(val
 const text = (x, y, what, anchor = "start") => `<text x="${x}" y="${y}" font-size="12.5" text-anchor="${anchor}" fill="var(--ink)" stroke="var(--paper)" stroke-width="3" paint-order="stroke">${escape(what)}</text>`;
 
 // The set-up: sizes follow the numbers, each by its logarithm, so that all can be seen.
-export function setUp(tables, { start }) {
+export function setUp(tables) {
   const { protocol = {}, material = {}, interface: law = {}, layer, punch } = tables;
   const apart = String(protocol.start || "").startsWith("apart"), parts = [];
-  const dip = apart ? 0 : 6 + 10 * squash(start?.depth, 1e-7, 1e-4), reach = 22 + 60 * squash(start?.radius, 1e-6, 2e-3);
+  const dip = apart ? 0 : 11, reach = 52;
   const tip = apart || punch ? GROUND - (apart ? 14 : 0) : GROUND + dip;
   if (punch) {
     const base = GROUND + 14 + 46 * squash(si(layer?.thickness), 1e-6, 1e-2), hatch = Array.from({ length: 20 }, (_, i) => `M${22 + 16 * i} ${base + 12}l10 -12`);

@@ -55,7 +55,7 @@ async function restore(store) {
   for (const name of ["accuracy", "until"]) if (settings[name]) store.settings[name] = settings[name];
   store.take(tables || Object.values(store.forms.examples)[0]);
   for (const one of kept.slice(0, MOST_KEPT)) {
-    const quick = await ask("/api/quick", { tables: one }).catch(() => null);
+    const quick = await ask("/api/quick", { problem: one }).catch(() => null);
     store.keep(one, quick, null);
   }
 }

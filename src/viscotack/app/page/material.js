@@ -3,7 +3,6 @@
 import { button, fold, h, save } from "./dom.js";
 import { reader } from "./form.js";
 import { Plot } from "./plot.js";
-import { ask } from "./server.js";
 
 const PARTS = { storage: ["storage modulus", "c0"], loss: ["loss modulus", "c1"], relaxation: ["relaxation modulus", "c0"], creep: ["creep compliance", "c0"] };
 
@@ -14,24 +13,19 @@ export function material(host, store) {
   const plot = new Plot(left, "Modulus against frequency", { height: 340 }), residuals = new Plot(left, "Residuals of the fit", { height: 190 }), shifts = new Plot(left, "Shifts with temperature", { height: 220 });
   file.form.fields.find(({ name }) => name === "poisson_ratio").input.value = "0.5";
   residuals.card.hidden = shifts.card.hidden = true;
-  let fit = null, asked = "";
+  let fit = null;
   store.addEventListener("material files", ({ detail }) => file.take(detail));
   store.on("quick", shown);
   return { shown };
 
-  async function shown() {
-    const key = JSON.stringify(store.tables.material);
-    if (host.hidden || fit || store.refused || key === asked) return;
-    asked = key;
-    const moduli = await ask("/api/moduli", { tables: store.tables }).catch(() => null);
-    if (!moduli || fit || key !== asked) return;
-    const line = (y, words, colour) => ({ kind: "line", x: moduli.frequency, y, words, colour });
-    plot.draw({ x: { words: "frequency", unit: "Hz", log: true }, y: { words: "modulus", unit: "Pa", log: true } }, [line(moduli.storage, "storage modulus E', of the case", "c0"), line(moduli.loss, "loss modulus E''", "c1")]);
+  function shown() {
+    if (host.hidden || fit || !store.quick) return;
+    const { frequency, storage, loss } = store.quick.moduli, line = (y, words, colour) => ({ kind: "line", x: frequency, y, words, colour });
+    plot.draw({ x: { words: "frequency", unit: "Hz", log: true }, y: { words: "modulus", unit: "Pa", log: true } }, [line(storage, "storage modulus E', of the case", "c0"), line(loss, "loss modulus E''", "c1")]);
   }
 
   function tell(found) {
     fit = found?.fit || null;
-    asked = "";
     residuals.card.hidden = !fit;
     shifts.card.hidden = !found?.shifts;
     if (!fit) { shown(); return; }

@@ -5,6 +5,7 @@ import { button, h, table } from "./dom.js";
 import { reader } from "./form.js";
 import { quantity, said } from "./numbers.js";
 import { Plot } from "./plot.js";
+import { tomlOf } from "./record.js";
 
 const COLOURS = ["c3", "c4", "c5"];
 
@@ -14,7 +15,7 @@ export function rig(host, store) {
   host.append(h("div", { class: "view" }, left, h("section", { class: "card side" }, h("h2", {}, "Files of a rig"), file.drop,
     h("p", { class: "hint" }, "CSV and text with units, testXpert, Nanosurf, JPK, Asylum."), file.form.host, file.said), below));
   const plot = new Plot(left, "Measured beside the forecast", { height: 360 }), speeds = new Plot(left, "Measured pull-off against speed", { height: 240 });
-  store.on("quick run", draw);
+  store.on("quick run verdict", draw);
   return { shown: draw };
 
   function tell(found) {
@@ -24,7 +25,7 @@ export function rig(host, store) {
     if (!found) return;
     const { curves, refused } = found, answer = h("div");
     const slow = button("What the first says of the interface, if it was slow", () => identify("identify/slow", {}, answer), { id: "identify-slow" });
-    const rates = button("What the series of speeds says of the interface", () => identify("identify/rates", { material: `[material]${store.quick.toml.split("[material]")[1].split("\n\n")[0]}` }, answer), { id: "identify-rates" });
+    const rates = button("What the series of speeds says of the interface", () => identify("identify/rates", { material: tomlOf({ material: store.tables.material }) }, answer), { id: "identify-rates" });
     file.said.replaceChildren(h("p", {}, `${curves.length} ${curves.length === 1 ? "cycle" : "cycles"} read, ${refused.length} refused`), ...refused.map((one) => h("p", { class: "refused" }, `${one.file}: ${one.reason}`)), slow, rates, answer);
     cycles.replaceChildren(table("Cycles of the tests", ["test", "pull-off", "true speed", "preload", "forecast"], curves.map((one) => [
       `${one.file}, cycle ${one.cycle}`, `${said(one.pull_off_force, "N")} ± ${said(one.pull_off_force_uncertainty, "N", 1)}`, `${said(one.speed, "m/s", 3)} ± ${said(one.speed_uncertainty, "m/s", 1)}`,
@@ -58,6 +59,6 @@ export function rig(host, store) {
       ...curves.slice(0, 9).map((one, i) => ({ kind: "points", x: one.depth, y: one.force, colour: COLOURS[i % 3], size: 1.6, words: `${one.file}, ${said(one.speed, "m/s", 2)}` })),
     ]);
     speeds.card.hidden = !found;
-    if (found) speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pulled, least: 0 } }, [...(quick.speeds ? ofSpeeds(quick.speeds, "c1") : []), measured(found)]);
+    if (found) speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pulled, least: 0 } }, [...(store.theory?.speeds ? ofSpeeds(store.theory.speeds) : []), measured(found)]);
   }
 }

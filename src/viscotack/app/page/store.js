@@ -88,7 +88,7 @@ export class Store extends EventTarget {
     this.asking = true;
     const { version } = this;
     try {
-      this.quick = await ask("/api/quick", { tables: this.tables, ...this.settings });
+      this.quick = await ask("/api/quick", { problem: this.tables });
       this.answered = version;
       this.refused = "";
       clearTimeout(this.linking);
@@ -158,13 +158,11 @@ export class Store extends EventTarget {
   async judge(run) {
     if (run.judged || run !== this.run) return;
     run.judged = true;
-    const { version, tables } = this, { signal } = this.judging = new AbortController();
+    const { version, tables: problem } = this, { signal } = this.judging = new AbortController();
     const tell = (name, answer) => { if (version === this.version) { this[name] = { ...answer, version }; this.say("verdict"); } };
     try {
-      const verdict = await ask("/api/verdict", { tables }, { signal });
-      tell("verdict", verdict);
-      const speeds = !this.quick.speeds;
-      if (speeds || verdict.crack) tell("theory", await ask("/api/theory", { tables, speeds, crack: verdict.crack }, { signal }));
+      tell("verdict", await ask("/api/verdict", { problem }, { signal }));
+      tell("theory", await ask("/api/theory", { problem }, { signal }));
     } catch (error) {
       if (error.name !== "AbortError" && !this.now("verdict")) tell("verdict", { numbers: [], refused: error.message, words: [], tiers: [] });
     }

@@ -110,8 +110,10 @@ def master_curve(
     unknown, many = bool(np.any(np.isnan(temperature))), bool(np.ptp(temperature) > GAP)
     if reference is None:
         if shift is not None or many:
+            known = temperature[np.isfinite(temperature)] - 273.15
             raise InputError(
-                "sweeps at several temperatures, or a shift, need reference_temperature="
+                f"sweeps from {known.min(initial=np.inf):.1f} to {known.max(initial=-np.inf):.1f} "
+                "C, or with a shift, need the temperature of the result, `reference_temperature`"
             )
         return _moved(sweeps, None if unknown else float(np.mean(temperature)))
     if unknown:
@@ -125,7 +127,8 @@ def master_curve(
         return _moved(sweeps, reference)
     elif many and np.ptp(sweeps.angular_frequency) <= 1e-3 * sweeps.angular_frequency[0]:
         raise InputError(
-            "a temperature ramp at one frequency has no overlap; give shift=, a law or a table"
+            "a temperature ramp at one frequency has no overlap that tells the shift; give a law, "
+            "such as WLF by a `glass_transition`, or a table"
         )
     elif by is None and vertical is None:
         return most_carried(sweeps, reference_temperature=reference)

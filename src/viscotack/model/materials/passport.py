@@ -7,7 +7,7 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.model.materials.checks import rests, temperatures
-from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.conversion import PronyForm, prony_form, slowed
 from viscotack.model.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
 # Beginning of the sentence of a fit on a liquid.
@@ -235,6 +235,40 @@ class Passport:
                 for solid, z in zip(self.allowed, _scattered(len(self.allowed)), strict=True)
             ),
         )
+
+    def as_prony(
+        self, frequencies: tuple[float, float] | None = None, tolerance: float = 3e-4
+    ) -> tuple["Passport", PronyForm]:
+        """Return the passport of a Prony series of the material, and the series with its error.
+
+        Parameters
+        ----------
+        frequencies : (float, float), optional
+            Range of the series [rad/s]; by default the measured range.
+        tolerance : float
+            As for :func:`.prony_form`.
+
+        Raises
+        ------
+        InputError
+            If the range is unknown; as :func:`.prony_form`.
+        """
+        from viscotack.model.materials.words import word_of
+
+        bounds, solid = frequencies or self.frequencies, self.material
+        if bounds is None and word_of(solid) in ("prony", "sls"):
+            bounds = 1e-3 / solid.time_unit, 1e3 / solid.time_unit
+        if bounds is None:
+            raise InputError(
+                f"frequencies: {self.name} does not say where it was measured; say where the "
+                'series must hold, "1 mHz,1 MHz"',
+                field="frequencies",
+            )
+        form = prony_form(solid, frequencies=bounds, tolerance=tolerance)
+        note = f"Prony series of the {word_of(solid)}, error {form.error:.1e}"
+        origin = replace(self.origin, notes=(*self.origin.notes, note))
+        how = {"material": form.material, "frequencies": form.frequencies, "origin": origin}
+        return replace(self, **how), form
 
 
 def _scattered(count: int) -> list[float]:

@@ -54,6 +54,32 @@ def _width(value: float, low: float, high: float) -> float:
     return float(np.mean(sides)) if sides else 0.0
 
 
+def known_of(
+    passport: Passport, temperature_uncertainty: float | None = None
+) -> tuple[tuple[Any, ...], dict[str, float]]:
+    """Return sampled solids, and the deviation of ln of the times by the temperature [K].
+
+    Raises
+    ------
+    InputError
+        If the passport knows neither, or no shift for the uncertainty of a temperature.
+    """
+    solids, times = allowed(passport), dict[str, float]()
+    if temperature_uncertainty is not None:
+        times["temperature"] = shift_error(passport, temperature_uncertainty)
+        if not times["temperature"]:
+            raise InputError(
+                f"{passport.name}: the temperature dependence of its times is unknown; omit "
+                "`temperature_uncertainty`"
+            )
+    if not solids and not times:
+        raise InputError(
+            f"{passport.name}: the uncertainty of this material is unknown (no sampled solids "
+            "and no intervals); omit passport, or state scatter of its constants"
+        )
+    return solids, times
+
+
 def shift_error(passport: Passport, uncertainty: float, temperature: float | None = None) -> float:
     """Return the relative standard error of the times of a solid by its temperature.
 

@@ -434,10 +434,16 @@ def material_of(given: Any, reading: Reading, temperature: float | None = None) 
     if reading.pure:
         implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
         table = {k: v for k, v in implied.items() if k in cards(kind)} | table
-        if "modulus_ratio" in table:
-            given, name = table.pop("modulus_ratio"), "modulus_ratio"
-            ratio = reading.key("material", name, card_of(ModulusRatio), given)
-            table["glassy_modulus"] = 1 / ratio
+    if {"modulus_ratio", "rubbery_modulus"} <= table.keys():
+        if "glassy_modulus" in table:
+            raise InputError(
+                f"{where} modulus_ratio and glassy_modulus determine each other; give only one",
+                field="material.modulus_ratio",
+            )
+        card, name = cards(Elastic)["rubbery_modulus"].card, "modulus_ratio"
+        ratio = reading.key("material", name, card_of(ModulusRatio), table.pop(name))
+        glassy = reading.key("material", "rubbery_modulus", card, table["rubbery_modulus"]) / ratio
+        table["glassy_modulus"] = glassy if reading.pure else f"{glassy!r} Pa"
     if kind is Prony and "file" in table:
         return _prony(table, reading)
     return read_as(kind, table, reading, "material")

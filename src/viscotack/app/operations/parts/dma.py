@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from ..request import Option, Request, number, option, switch
+from ..options import Option, number, option, switch
+from ..request import Request
 
 if TYPE_CHECKING:
     from viscotack.lab import CreepTest, FrequencySweeps, RelaxationTest

@@ -25,8 +25,6 @@ def retraction(cycle: Any) -> dict[str, Any]:
         "force": drawn(cycle.force[back][::every]),
         "pull_off_force": cycle.pull_off_force.value,
         "pull_off_force_uncertainty": cycle.pull_off_force.uncertainty,
-        "depth_at_pull_off": cycle.depth_at_pull_off.value,
-        "temperature": cycle.temperature,
         "speed": cycle.speed.value,
         "speed_uncertainty": cycle.speed.uncertainty,
         "preload": cycle.preload.value,
@@ -47,8 +45,6 @@ def fit(report: "FitReport") -> dict[str, Any]:
         "x_unit": "Hz" if data.in_frequency else "s",
         "unit": "1/Pa" if data.quantity == "creep" else "Pa",
         "level": report.level,
-        "measured_from": float(data.at[0] * unit),
-        "measured_to": float(data.at[-1] * unit),
         "at": drawn(data.at * unit),
         "curve_at": drawn(at * unit),
         "parts": [
@@ -75,5 +71,4 @@ def shifts(shift: Any) -> dict[str, Any] | None:
     return {
         "temperature": drawn(rows - 273.15),
         "log10_shift": drawn(shift.log10_shift(rows)),
-        "deviation": drawn(shift.uncertainty) if shift.uncertainty else None,
     }

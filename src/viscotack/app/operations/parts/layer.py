@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING
 
 from viscotack.errors import InputError
 
-from ..request import Request, number
+from ..options import number
+from ..request import Request
 
 if TYPE_CHECKING:
     from viscotack.model.geometry import HalfSpace, Layer

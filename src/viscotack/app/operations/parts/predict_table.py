@@ -1,33 +1,46 @@
-"""Tables of cases without dimensions from files, and back into files with their predictions."""
+"""Tables of cases with their predictions: without dimensions, or changes of one problem."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import partial
-from itertools import islice
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.campaign.listed import EMPTY, read_words
-from viscotack.errors import InputError
-from viscotack.files.whole import Target, writing_whole
+from viscotack.clock import TimeUp, limited
+from viscotack.errors import TOO_LARGE, InputError
+from viscotack.files.whole import Target
+from viscotack.model.problem.changes import Changes, changes_of
 from viscotack.model.problem.kinds import plain_heading
-from viscotack.prediction.table import answers_of, kind_of, predict_table
+from viscotack.prediction import predict
+from viscotack.prediction.prediction import prediction_summary
+from viscotack.prediction.table import (
+    METHOD,
+    WORK,
+    answers_of,
+    kind_of,
+    predict_table,
+    with_interval,
+)
 from viscotack.units import is_number
 
 from ..request import Answer, Told
-from .tables import Writer, columns_text
+from ..statement import Statement
+from .record_words import units_of
+from .tables import Writer, write_table
 from .workbook import write_workbook
 
-# Rows in memory at a time.
-_BLOCK = 50_000
+Rows = Sequence[Mapping[str, Any]]
+Tell = Callable[[Told], None]
 _SHEET = 2**20 - 1  # rows of a sheet below its headings
+# Of the record of a prediction: what is equal in all rows, or an object.
+_LEFT_OUT = ("problem", "versions")
+_ABOUT = ("method", "inside", "band", "cautions", "why")
 
 
-def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) -> Answer:
-    """Return the answer to the cases of a table, which are predicted as they are written.
+def predict_file(path: Path, confidence: float, tell: Tell) -> Answer:
+    """Return the answer to the cases of a table of spheres or punches without dimensions.
 
     The table is a CSV file, or the first sheet of a workbook .xlsx.
 
@@ -38,109 +51,201 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     ValueError
         If columns or rows are not those of a table of spheres or punches.
     """
-    headings, rows = read_words(path, empty=True)
-    header = [plain_heading(name) for name in headings]
-    kind = kind_of(header)
-    names = [name for name in header if name in {*kind.columns, *kind.choices}]
+    headings, lines = read_words(path, empty=True)
+    rows = [[cell.strip() for cell in row] for _, row in lines]
+    given = dict(zip(map(plain_heading, headings), zip(*rows, strict=True), strict=True))
+    kind = kind_of(given)
+    words = {name: given[name] for name in given if name in {*kind.columns, *kind.choices}}
     try:
-        kind.check(set(names))
+        kind.check(set(words))
     except InputError as error:
         raise InputError(
             f"{path}: {error}, and the headings {', '.join(headings)}; a table in SI changes a "
             "problem, which stands before it: viscotack predict lens.toml cases.xlsx"
         ) from None
-    refuse_answered(path, header, answers_of(kind))
-    counts: Counter[str] = Counter()
-    methods: Counter[str] = Counter()
-
-    def blocks() -> Iterator[dict[str, Any]]:
-        while block := list(islice(rows, _BLOCK)):
-            begin = counts["rows"]
-            given = {n: [row[i].strip() for _, row in block] for i, n in enumerate(header)}
-            found = _answers(path, given, names, confidence, partial(_rows_told, tell, begin))
-            empty = np.array([not any(row) for row in zip(*given.values(), strict=True)])
-            found["why"][empty] = EMPTY
-            counts.update(
-                {
-                    "rows": len(block),
-                    "inside": int(found["inside"].sum()),
-                    "unanswered": int(np.sum((found["method"] == "") & ~empty)),
-                }
-            )
-            methods.update(found["method"][found["method"] != ""].astype(str).tolist())
-            yield {**dict(zip(headings, given.values(), strict=True)), **found}
-
-    def answered(file: Target) -> None:
-        with writing_whole(file) as stream:
-            for number, table in enumerate(blocks()):
-                stream.write(columns_text(table, header=not number))
-
-    def in_workbook(file: Target) -> None:
-        columns: dict[str, list[Any]] = {}
-        for table in blocks():
-            if counts["rows"] > _SHEET:
-                raise InputError(f"{path} has more rows than a sheet can have; write csv")
-            for name, values in table.items():
-                columns.setdefault(name, []).extend(map(in_sheet, np.asarray(values).tolist()))
-        write_workbook({"predictions": columns}, file)
-
-    def record() -> dict[str, Any]:
-        return {
-            "rows": counts["rows"],
-            "inside": counts["inside"],
-            "methods": dict(sorted(methods.items())),
-            "unanswered": counts["unanswered"],
-            "confidence": confidence,
-        }
-
-    files: dict[str, Writer] = {"csv": answered, "xlsx": in_workbook}
-    return Answer(methods, data=record, files=files)
+    _refuse_answered(path, given, answers_of(kind))
+    numbers = {n: [float(x) if is_number(x) else np.nan for x in xs] for n, xs in words.items()}
+    try:
+        found = predict_table(
+            numbers,
+            confidence=confidence,
+            report=lambda done, count: tell({"words": f"{done} of {count} rows answered"}),
+        )
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+    empty = np.array([not any(row) for row in rows])
+    found["why"][empty] = EMPTY
+    for i in np.flatnonzero((found["method"] == "") & ~empty).tolist():
+        if wrong := [n for n in words if not is_number(words[n][i])]:
+            found["why"][i] = f"{wrong[0]} is {words[wrong[0]][i]!r}, not a number"
+    record = _counts(found["method"].tolist(), found["inside"], found["why"]) | {
+        "confidence": confidence
+    }
+    return Answer(
+        found,
+        data=lambda: record,
+        files=_files(dict(zip(headings, given.values(), strict=True)) | found),
+    )
 
 
-def refuse_answered(where: Any, headings: Iterable[str], answers: Iterable[str]) -> None:
+def predict_changes(
+    stated: Statement,
+    rows: Rows,
+    tell: Tell,
+    *,
+    time_limit: float | None = None,
+    **options: Any,
+) -> Answer:
+    """Return the predictions of a problem with the numbers of each row in place of its own.
+
+    A row is answered as its problem alone would be, with the same options of `predict`; one that
+    has no answer has the reason. `time_limit` [s] is that of a row.
+    """
+    changes = changes_of(stated.problem, rows[0])
+    kind, names = changes.kind(), _columns(stated.problem)
+    _refuse_answered("the table", rows[0], [*names, *_ABOUT])
+    # a passport describes the material of the problem, not one with other numbers
+    is_other = any(c.number.path.startswith("material.") for c in changes.columns)
+    options |= {
+        "passport": None if is_other else stated.passport,
+        "shift_deviation": stated.deviation,
+    }
+    known: dict[tuple[float, ...], dict[str, Any]] = {}
+
+    def answer(row: Mapping[str, Any]) -> dict[str, Any]:
+        try:
+            inputs = changes.values(row)
+        except InputError as error:
+            return {"inputs": None, "outputs": None, "why": str(error)}
+        case = tuple(inputs.values())
+        if case not in known:
+            outputs, why = None, ""
+            try:
+                with limited(time_limit):
+                    outputs = prediction_summary(predict(kind.problem(inputs), **options))
+            except (InputError, TimeUp) as error:
+                why = str(error)
+            except ArithmeticError:
+                why = TOO_LARGE
+            else:
+                outputs = {name: x for name, x in outputs.items() if name not in _LEFT_OUT}
+                why = outputs.pop("why")
+                if outputs["inside"] and outputs["method"] in METHOD.values():
+                    why = ""
+            whys = filter(None, [*changes.unusual(inputs), why])
+            known[case] = {"outputs": outputs, "why": "; ".join(whys)}
+        return {"inputs": inputs, **known[case]}
+
+    found = answered_rows(changes, rows, answer, tell, "why")
+    answers: Rows = [one["outputs"] or {} for one in found]
+    table: dict[str, Any] = {heading: [row[heading] for row in rows] for heading in rows[0]}
+    for heading, (name, end) in names.items():
+        values = [one.get(name) for one in answers]
+        if end is not None:
+            values = [None if pair is None else pair[end] for pair in values]
+        table[heading] = ["" if value is None else value for value in values]
+    table |= {name: [one.get(name, "") for one in answers] for name in ("method", "band")}
+    table["inside"] = np.array([bool(one.get("inside")) for one in answers])
+    table["cautions"] = [" ".join(one.get("cautions", ())) for one in answers]
+    table["why"] = [one["why"] for one in found]
+    order = [*rows[0], *names, *_ABOUT]
+    record = _counts(table["method"], table["inside"], table["why"]) | {"rows": found}
+    return Answer(
+        found,
+        data=lambda: record,
+        words=lambda: record | {"rows": shown_rows(changes, found, "why", "interval")},
+        units=units_of(stated.problem.groups().outputs),
+        files=_files({name: table[name] for name in order}),
+        notes=(*stated.improbable, *changes.notes),
+    )
+
+
+def answered_rows(
+    changes: Changes,
+    rows: Rows,
+    answer: Callable[[Mapping[str, Any]], dict[str, Any]],
+    tell: Tell,
+    why: str,
+) -> list[dict[str, Any]]:
+    """Return the answer to each row, told when it comes; an empty one has the reason `why`."""
+    found: list[dict[str, Any]] = []
+    for number, row in enumerate(rows, 1):
+        empty = {"inputs": None, "outputs": None, why: EMPTY}
+        carried = changes.carried_of(row)
+        one = empty if changes.is_empty(row) else answer(row)
+        found.append(one | ({"carried": carried} if carried else {}))
+        words = f"{number} of {len(rows)} rows answered"
+        tell({"share": number / len(rows), "words": words})
+    return found
+
+
+def shown_rows(changes: Changes, found: Rows, why: str, *more: str) -> list[dict[str, Any]]:
+    """Return what the text says of rows: the pull-off, or why there is none."""
+    problem: Any = changes.problem
+    pulled, tail = "pull_off_force", "_N"
+    if hasattr(problem, "outputs"):  # not of a rough surface
+        pulled = f"pull_off_{problem.outputs.name_of('force')}"
+        unit = problem.outputs.observables[pulled].unit
+        tail = "" if problem.scales() is None else f"_{unit.tail}"
+    names = [f"{name}{tail}" for name in (pulled, *more)]
+    return [
+        {"case": changes.words(one)}
+        | {name: (one["outputs"] or {}).get(name) for name in names}
+        | {"why": one[why] if one["outputs"] is None else ""}
+        for one in found
+    ]
+
+
+def _columns(problem: Any) -> dict[str, tuple[str, int | None]]:
+    """Return the headings of the numbers of the answers -> names in the record, ends of pairs."""
+    outputs = problem.groups().outputs
+    in_si = problem.scales() is not None
+    pulled = f"pull_off_{outputs.name_of('force')}"
+    found: dict[str, tuple[str, int | None]] = {}
+    for name, interval in ((pulled, "interval"), (WORK[0], "work_interval")):
+        unit = outputs.observables[name].unit
+        tail, head = (f"_{unit.tail}", f" [{unit.si}]") if in_si else ("", "")
+        sources = (f"{name}{tail}", None), (f"{interval}{tail}", 0), (f"{interval}{tail}", 1)
+        headings = [f"{each}{head}" for each in with_interval(name)]
+        found |= dict(zip(headings, sources, strict=True))
+    return found
+
+
+def _counts(methods: Sequence[str], inside: Any, why: Any) -> dict[str, Any]:
+    """Return how many rows have an answer, by method, and how many have none."""
+    return {
+        "rows": len(methods),
+        "inside": int(np.sum(inside)),
+        "methods": dict(sorted(Counter(filter(None, methods)).items())),
+        "unanswered": sum(
+            not method and reason != EMPTY for method, reason in zip(methods, why, strict=True)
+        ),
+    }
+
+
+def _refuse_answered(where: Any, headings: Mapping[str, Any], answers: Sequence[str]) -> None:
     """Refuse a table that has columns of answers already."""
-    known = set(headings)
-    if there := [name for name in answers if name in known]:
+    if there := [name for name in answers if name in headings]:
         raise InputError(
             f"{where} has the columns {', '.join(there)} already, which the answers are to have; "
             "rename or leave them out"
         )
 
 
-def in_sheet(value: Any) -> Any:
+def _files(table: Mapping[str, Any]) -> dict[str, Writer]:
+    """Return the writers of the columns of a table."""
+
+    def in_workbook(target: Target) -> None:
+        columns = {n: [_in_sheet(x) for x in np.asarray(v, object)] for n, v in table.items()}
+        if len(next(iter(columns.values()))) > _SHEET:
+            raise InputError("the table has more rows than a sheet can have; write csv")
+        write_workbook({"predictions": columns}, target)
+
+    return {"csv": lambda target: write_table(table, target), "xlsx": in_workbook}
+
+
+def _in_sheet(value: Any) -> Any:
     """Return an entry of a table as a cell of a workbook; nothing where there is no number."""
     if value == "" or value != value:
         return None
     return float(value) if isinstance(value, str) and is_number(value) else value
-
-
-def _rows_told(tell: Callable[[Told], None], before: int, done: int, count: int) -> None:
-    tell({"words": f"{before + done} of {before + count} rows answered"})
-
-
-def _answers(
-    path: Path,
-    given: Mapping[str, list[str]],
-    names: list[str],
-    confidence: float,
-    report: Callable[[int, int], None],
-) -> dict[str, npt.NDArray[Any]]:
-    """Return the answers to some rows; of a word that is no number, a reason."""
-    try:
-        numbers = {name: _numbers(given[name]) for name in names}
-        found = predict_table(numbers, confidence=confidence, report=report)
-    except ValueError as error:
-        raise InputError(f"{path}: {error}") from None
-    for i in np.flatnonzero(found["method"] == "").tolist():
-        wrong = [n for n in names if not is_number(given[n][i])]
-        if wrong:
-            found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
-    return found
-
-
-def _numbers(words: list[str]) -> npt.NDArray[np.float64]:
-    """Return words as numbers; nan where they are none."""
-    try:
-        return np.array(words, dtype=float)
-    except ValueError:
-        return np.array([float(word) if is_number(word) else np.nan for word in words])

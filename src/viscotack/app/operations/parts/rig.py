@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from viscotack.errors import InputError
 
-from ..request import Caller, File, Request, number, option, switch, text
+from ..options import File, number, option, switch, text
+from ..request import Caller, Request
 from .dma import Where
 
 if TYPE_CHECKING:

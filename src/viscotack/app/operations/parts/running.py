@@ -20,23 +20,37 @@ Tell = Callable[[Told], None]
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
 _PROFILES, _NODES = 60, 160
-_NO_UNITS = (1.0, 1.0, 1.0, 1.0)
 # Of the largest contact, what is drawn of the surface.
 _SEEN = 2.5
 
 
-def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: Any) -> Result:
+def run(problem: Any, tell: Tell, *, profiles: bool, **options: Any) -> Result:
     """Simulate a problem, telling its curve as it grows.
 
-    Tells ``share`` of the work, and the new ``points`` where they are wanted: time, depth, force,
-    contact radius, in SI where the problem is. Other keywords are those of
-    :func:`viscotack.solve`.
+    Tells ``share`` of the work, and the new ``points``: time, depth, force, contact radius, in SI
+    where the problem is. Other keywords are those of :func:`viscotack.solve`.
     """
-    told = _Told(tell, _units_of(problem) if points else _NO_UNITS)
-    options |= {"throw": False, "progress": told.progress}
-    options |= {"watch": told.watch} if points else {}
+    units, points = _units_of(problem), list[list[float | None]]()
+    share, last = 0.0, 0.0
+
+    def flush() -> None:
+        tell({"doing": "pulling", "share": share, "points": points.copy()})
+        points.clear()
+
+    def progress(now: float) -> None:
+        nonlocal share, last
+        share = max(share, now)
+        if perf_counter() - last > _EVERY:
+            last = perf_counter()
+            flush()
+
+    def watch(*step: float) -> None:
+        points.append(drawn([x * u for x, u in zip(step, units, strict=True)]))
+        progress(share)
+
+    options |= {"throw": False, "progress": progress, "watch": watch}
     result = _solved(problem, options, profiles)
-    told.flush()
+    flush()
     return result
 
 
@@ -62,33 +76,6 @@ def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
             if "profiles" not in str(error):
                 raise
     return solve(problem, **options)
-
-
-class _Told:
-    """Progress reports of a run, about twenty times a second."""
-
-    def __init__(self, tell: Tell, units: tuple[float, float, float, float]) -> None:
-        self._tell, self._units = tell, units
-        self._points: list[list[float | None]] = []
-        self._share, self._last = 0.0, 0.0
-
-    def progress(self, share: float) -> None:
-        self._share = max(self._share, share)
-        self._now_and_then()
-
-    def watch(self, *step: float) -> None:
-        self._points.append(drawn([x * u for x, u in zip(step, self._units, strict=True)]))
-        self._now_and_then()
-
-    def flush(self) -> None:
-        self._tell({"doing": "pulling", "share": self._share, "points": self._points})
-        self._points = []
-
-    def _now_and_then(self) -> None:
-        now = perf_counter()
-        if now - self._last > _EVERY:
-            self._last = now
-            self.flush()
 
 
 def _units_of(problem: Any) -> tuple[float, float, float, float]:
@@ -119,21 +106,18 @@ def _energy(result: Result) -> dict[str, Any] | None:
     return {
         "unit": kind.energy.text if scales is None else kind.energy.si,
         "series": {name: x for name, x in changes.items() if name == "drive" or any(x)},
-        "mode_time": drawn(energy.mode_time * (1.0 if scales is None else scales.time)),
-        "mode_heat": drawn(energy.mode_heat * factor),
     }
 
 
 def _profiles(result: Result) -> list[dict[str, Any]] | None:
-    """Return pressure and gap over the radius at some steps, in SI where the problem is."""
-    fields = result.fields
-    if fields is None:
+    """Return pressure and gap over the radius at some steps, of a problem in SI."""
+    fields, problem = result.fields, result.problem
+    if fields is None or not isinstance(problem, Problem):
         return None
-    _, depth, _, along = _units_of(result.problem)
-    pressure = 1.0
-    if isinstance(result.problem, Problem):
-        law = result.problem.traction
-        pressure = law.work_of_adhesion / law.equilibrium_gap
+    _, depth, _, along = _units_of(problem)
+    law: Any = problem.traction
+    shape: Any = problem.geometry
+    pressure = law.work_of_adhesion / law.equilibrium_gap
     seen = _SEEN * float(np.nanmax(result.contact_radius, initial=0.0))
     steps = np.unique(np.linspace(0, len(result.time) - 1, _PROFILES).astype(int))
     lowest = int(np.argmin(result.force))
@@ -142,22 +126,14 @@ def _profiles(result: Result) -> list[dict[str, Any]] | None:
         radius = fields["radius"][step]
         known = np.flatnonzero(np.isfinite(radius) & ((radius <= seen) | (seen == 0)))
         every = known[np.unique(np.linspace(0, len(known) - 1, _NODES).astype(int))]
+        flat, place = isinstance(shape, FlatPunch), radius[every] * along
         found.append(
             {
                 "step": step,
-                "radius": drawn(radius[every] * along),
+                "radius": drawn(place),
                 "gap": drawn(fields["gap"][step][every] * depth),
                 "pressure": drawn(fields["pressure"][step][every] * pressure),
-                "flank": _flank(result.problem, radius[every] * along),
+                "flank": drawn(np.zeros_like(place) if flat else shape.gap(place)),
             }
         )
     return found
-
-
-def _flank(problem: Any, radius: Any) -> list[float | None] | None:
-    """Return the height of an indenter above its tip, in SI; None without dimensions."""
-    if not isinstance(problem, Problem):
-        return None
-    if isinstance(problem.geometry, FlatPunch):
-        return drawn(np.zeros_like(radius))
-    return drawn(problem.geometry.gap(radius))

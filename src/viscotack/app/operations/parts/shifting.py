@@ -8,9 +8,9 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-from ..request import Caller, Request, file_name, number, option, quoted, text, two_of
+from ..options import file_name, number, option, quoted, text, two_of
+from ..request import Caller, Request
 
-_SEVERAL = 3.0  # K: a chamber holds its temperature better
 _MOVES = ("none", "auto", "free")
 
 
@@ -115,102 +115,24 @@ class Shifting(ShiftLaw):
                 f"{self.named[0]} leave them out"
             )
 
-    def swept(self, sweeps: Any, caller: Caller) -> tuple[Any, Any, tuple[str, ...]]:
-        """Return the master curve of a DMA, the shift of times, and doubts about it."""
-        from viscotack.lab import contradiction, master_curve, superposition
-        from viscotack.model.materials.shift import WLF
+    def at_one_temperature(self, measured: Any, caller: Caller) -> Any:
+        """Return what was measured at one temperature, the shift of times, and doubts about it."""
+        from viscotack.lab import MasterCurve, at_one_temperature
 
-        law, file = self.law(caller), _named(sweeps.source.path.split(", "))
-        for kelvin in self.leave_out:
-            sweeps = sweeps.chosen(_others(sweeps.temperature, kelvin, file))
-        known = sweeps.temperature[np.isfinite(sweeps.temperature)]
-        several = known.size > 0 and np.ptp(known) > _SEVERAL
-        self._ask_reference(file, known)
-        if law is None and np.ptp(sweeps.angular_frequency) == 0 and several:
-            raise InputError(
-                f"{file} is a temperature ramp at one frequency, so nothing overlaps that could "
-                'tell the shift; give `glass_transition` "-115 degC", wlf or `shift_file`'
-            )
-        curve = master_curve(
-            sweeps,
+        curve, shift, doubts = at_one_temperature(
+            measured,
             reference_temperature=self.reference_temperature,
-            shift=law,
+            shift=self.law(caller),
             by=self.shift_by,
             vertical=self.vertical,
+            leave_out=self.leave_out,
         )
-        # before anything is counted by less
-        cautions = [contradiction(curve)]
-        if curve.shifts is not None and len(curve.shifts) > 1:
-            cautions += superposition(sweeps, curve.shifts)
-        if self.glass_transition is not None:
-            cautions += _below(known, self.glass_transition)
-        shift = law if isinstance(law, WLF) else curve.shifts
-        return curve, shift, tuple(words for words in cautions if words)
-
-    def stepped(self, measured: Any, caller: Caller) -> tuple[Any, Any, tuple[str, ...]]:
-        """Return relaxation or creep tests as one at one temperature, and how times shift."""
-        from viscotack.lab import superposed
-        from viscotack.model.materials.shift import WLF
-
-        law = self.law(caller)
-        tests = measured if isinstance(measured, tuple) else (measured,)
-        file = _named(list(dict.fromkeys(test.source.path for test in tests)))
-        known = np.array([np.nan if t.temperature is None else t.temperature for t in tests])
-        for kelvin in self.leave_out:
-            keep = _others(known, kelvin, file)
-            tests, known = tuple(t for t, k in zip(tests, keep, strict=True) if k), known[keep]
-        if len(tests) == 1 and self.reference_temperature is None:
-            if self.vertical is not None:
-                raise InputError(
-                    f"{file}: one temperature, there is nothing to shift; leave vertical out"
-                )
-            return tests[0], None, ()
-        self._ask_reference(file, known[np.isfinite(known)])
-        if self.reference_temperature is None:
-            raise InputError(f"{file}: say at which temperature, `reference_temperature`")
-        same: Any = tests  # all of them relaxation, or all creep
-        curve, table = superposed(
-            same,
-            reference_temperature=self.reference_temperature,
-            shift=law,
-            vertical="none" if self.vertical is None else self.vertical,
-        )
-        return curve, law if isinstance(law, WLF) else table, ()
-
-    def _ask_reference(self, file: str, known: Any) -> None:
-        if self.reference_temperature is None and known.size and np.ptp(known) > _SEVERAL:
-            raise InputError(
-                f"{file}: measured from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} "
-                "C; say at which temperature the material is wanted, `reference_temperature` "
-                '"20 degC"'
+        glass = self.glass_transition
+        known = curve.temperature if isinstance(curve, MasterCurve) else None
+        if glass is not None and known is not None and (known < glass).any():
+            doubts += (
+                f"{np.sum(known < glass)} points lie below the glass transition, down to "
+                f"{np.nanmin(known) - 273.15:.4g} C, where a glass need not follow WLF: the "
+                "highest frequencies and the glassy modulus rest on them",
             )
-
-
-def _named(paths: list[str]) -> str:
-    """Return the names of files, of many the first."""
-    return ", ".join(paths) if len(paths) < 4 else f"{paths[0]} and {len(paths) - 1} more"
-
-
-def _others(temperature: Any, asked: float, file: str) -> Any:
-    """Return which points are not of the sweep at a temperature [K]."""
-    near = np.abs(temperature - asked) <= 1.0
-    words = f'--leave-out "{asked - 273.15:.4g} degC"'
-    if not near.any():
-        known = np.unique(np.round(temperature[np.isfinite(temperature)] - 273.15))
-        there = ", ".join(f"{T:g} C" for T in known) or "temperatures that it does not say"
-        raise InputError(f"{words}: {file}: no test within 1 K of it; there are some at {there}")
-    if near.all():
-        raise InputError(f"{words} leaves nothing of {file}")
-    return ~near
-
-
-def _below(temperature: Any, glass: float) -> list[str]:
-    """Warn if WLF was used below the glass transition."""
-    count = int(np.sum(temperature < glass))
-    if not count:
-        return []
-    return [
-        f"{count} points lie below the glass transition, down to "
-        f"{np.min(temperature) - 273.15:.4g} C, where a glass need not follow WLF: the highest "
-        "frequencies and the glassy modulus rest on them"
-    ]
+        return curve, shift, doubts

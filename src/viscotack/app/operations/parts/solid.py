@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from viscotack.errors import InputError
 
 from ..flags import FLAGS, material_table, needs_of
-from ..request import Caller, Named, Request, named, number, quoted
+from ..options import Named, named, number, quoted
+from ..request import Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.model.materials.material import Material

@@ -43,17 +43,11 @@ def write_table(table: Mapping[str, Any], path: "Target") -> None:
     """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
     from viscotack.files.whole import write_whole
 
-    write_whole(path, columns_text(table, header=True))
-
-
-def columns_text(table: Mapping[str, Any], *, header: bool) -> bytes:
-    """Return columns as CSV, with their names above."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
-    if header:
-        rows.writerow(map(cell, table))
+    rows.writerow(map(cell, table))
     rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
-    return text.getvalue().encode()
+    write_whole(path, text.getvalue().encode())
 
 
 def _cells(values: Any) -> list[Any]:
