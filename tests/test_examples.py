@@ -1,4 +1,4 @@
-"""Every example runs, with fast settings where it takes any, and says what it should."""
+"""Examples say what they should, with fast settings; the build of the documentation runs all."""
 
 import importlib.util
 from pathlib import Path
@@ -18,19 +18,6 @@ def load(name):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
-
-
-@pytest.mark.slow
-def test_a_lens_pulls_off_by_its_radius_and_its_work_of_adhesion(tmp_path, capsys):
-    picture = tmp_path / "tornado.png"
-    result = load("what_matters").main(picture, accuracy=5e-3)
-    force = result.sensitivities.elasticities["pull_off_force"]
-    assert sorted(force, key=lambda name: -force[name])[:2] == [
-        "interface.work_of_adhesion",
-        "sphere.radius",
-    ]
-    assert picture.stat().st_size > 10_000
-    assert "protocol.speed" in capsys.readouterr().out
 
 
 def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys, monkeypatch):
@@ -110,18 +97,6 @@ def test_the_files_of_the_rig_are_those_that_their_script_makes():
     kept = np.loadtxt(EXAMPLES / "from_rig" / f"lens_{name}.csv", delimiter=",", skiprows=1)
     scale = np.array([1.0, 1e3, 1e3])
     assert np.allclose(kept, made * scale, rtol=1e-5, atol=1e-3)
-
-
-@pytest.mark.slow
-def test_an_interface_that_grows_is_found_again(tmp_path, capsys):
-    picture = tmp_path / "growing.png"
-    fit = load("growing_interface").main(ranges=(25e-9, 100e-9), picture=picture)
-    assert picture.stat().st_size > 10_000
-    assert fit.intervals["equilibrium_gap"].low < 50e-9 < fit.intervals["equilibrium_gap"].high
-    printed = capsys.readouterr().out
-    assert "the interface grows with speed" in printed
-    low, _, high, _, _, true, _ = printed.splitlines()[-2].split()[3:]
-    assert float(low) < float(true) < float(high)
 
 
 def test_a_probe_on_a_gel_snaps_in_and_lets_go():
