@@ -81,9 +81,7 @@ def test_a_plan_has_an_end(tmp_path):
     ("start", "exists"),
     [
         ({"preload": -20.0}, False),
-        ({"preload_force": -0.5}, True),
         ({"preload_radius": 2.0}, True),
-        ({"preload_radius": 0.1}, False),
     ],
 )
 def test_a_relaxed_contact_is_looked_for(start, exists):
@@ -109,7 +107,6 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         ("p.toml", "", "nothing to run"),
         ("p.toml", f"[settings]\naccuracy = 1\n[[grid]]\n{CASE}", "accuracy"),
         ("p.toml", f"[[grid]]\n{CASE}rat = 1\n", "block 1 .*rat"),
-        ("p.toml", f"[[fill]]\ncases = 3\n{CASE}", "at least one range"),
         ("p.toml", sphere_fill(3, preload="{ log = [-1, 1] }"), "preload"),
         ("p.toml", sphere_fill(3, preload="{ linear = [-90, -80] }"), "relaxed"),
         ("c.csv", "tabor,rate\n1,2\n", "columns"),

@@ -55,7 +55,7 @@ def test_bead_comes_off(tmp_path, monkeypatch, capsys):
 
 def test_profiles_show_tension_at_the_edge(tmp_path, capsys):
     picture = tmp_path / "fields.png"
-    result = load("fields").main(rate=1e4, accuracy=1e-3, picture=picture)
+    result = load("fields").main(rate=1e4, accuracy=5e-3, picture=picture)
     assert picture.stat().st_size > 10_000 and "Picture" in capsys.readouterr().out
     pressure, radius = result.fields["pressure"][0], result.fields["radius"][0]
     edge = radius[np.nanargmin(pressure)]
@@ -65,7 +65,7 @@ def test_profiles_show_tension_at_the_edge(tmp_path, capsys):
 
 def test_the_loop_is_largest_at_a_middle_speed(tmp_path, capsys):
     example = load("hysteresis")
-    results = example.main(accuracy=1e-2, picture=tmp_path / "loops.png")
+    results = example.main(accuracy=2e-2, picture=tmp_path / "loops.png")
     heat = [example.lost_work(result)["heat"] for result in results]
     assert heat[1] > 2 * max(heat[0], heat[2])
     assert (tmp_path / "loops.png").stat().st_size > 10_000
@@ -74,14 +74,14 @@ def test_the_loop_is_largest_at_a_middle_speed(tmp_path, capsys):
 
 def test_a_rested_contact_holds_harder(tmp_path):
     relaxed, forces = load("dwell_time").main(
-        [1e-2, 1.0, 100.0], accuracy=1e-2, picture=tmp_path / "dwell.png"
+        [1e-2, 1.0, 100.0], accuracy=2e-2, picture=tmp_path / "dwell.png"
     )
     assert forces[0] < forces[1] < forces[2]
     assert forces[2] == pytest.approx(relaxed, rel=1e-2)
 
 
 def test_a_heavier_load_is_borne_for_a_shorter_time(tmp_path, capsys):
-    times = load("dead_load").main([1.2, 2.0], accuracy=1e-2, picture=tmp_path / "load.png")
+    times = load("dead_load").main([1.2, 2.0], accuracy=2e-2, picture=tmp_path / "load.png")
     # seconds; the converged values are 5.2 and 0.74
     assert times == pytest.approx([5.2, 0.74], rel=0.05)
     assert "still in contact" in capsys.readouterr().out

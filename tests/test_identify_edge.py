@@ -80,8 +80,8 @@ def test_a_slow_edge_law_is_jkr_and_a_fast_one_a_power_of_the_speed():
     assert pulled(1e-4, stiffness=500.0) < 0.95 * pulled(1e-4)
 
 
-@pytest.mark.parametrize("n", [0.2, 0.8])
-def test_an_edge_law_is_found_again_and_forecast(n):
+def test_an_edge_law_is_found_again_and_forecast():
+    n = 0.8
     fit = identify_edge(series(pulled(SPEEDS, n=n)))
     truth = {"work_of_adhesion": WORK, "reference_speed": 5e-5, "exponent": n}
     for name, value in truth.items():
