@@ -11,11 +11,7 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, FlatPunch, Layer
 from viscotack.model.materials import StandardSolid
 from viscotack.model.problem import Groups
-from viscotack.model.protocol import (
-    AtDepth,
-    Dwell,
-    MoveTo,
-)
+from viscotack.model.protocol import AtDepth, Dwell, MoveTo
 from viscotack.result import Outcome
 from viscotack.simulate import solve
 from viscotack.simulate.jumps import _MOST_MESHES

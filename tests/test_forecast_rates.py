@@ -24,7 +24,7 @@ SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
 )
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 1e-3
-SPEEDS = np.geomspace(1e-6, 1e-3, 5)
+SPEEDS = np.geomspace(1e-6, 1e-3, 4)
 RUBBER = Passport(
     name="rubber",
     material=SOLID,

@@ -97,7 +97,7 @@ def test_speeds_at_which_the_forces_reach_through_a_layer_are_left_out():
 )
 def test_what_is_not_known_on_a_layer_is_refused(more):
     travelled = [
-        replace(one, travels=(one.force,) * 4) for one in measured(forces(layer(1.0)), 0.01)
+        replace(one, travels=(one.force,) * 4) for one in measured(forces(layer(1.0)), 0.01, SPEEDS)
     ]
     series = RateSeries(travelled, body=layer(1.0), **CASE, **more)
     with pytest.raises(InputError, match="layer"):
