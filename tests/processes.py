@@ -1,12 +1,10 @@
 """What tests of processes share: waiting for a state, and who is there."""
 
-import os
 import time
 from pathlib import Path
 
 # Longest time to wait for a state [s]; it decides no test, so it may be as long as it wants.
 LONG = 120.0
-# What these tests claim does not hold on Windows: folders that are flushed, bounded address spaces.
 
 
 def until(condition, seconds=LONG):
@@ -24,15 +22,6 @@ def state(process):
         return Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0]
     except (FileNotFoundError, ProcessLookupError):
         return ""
-
-
-def lives(process):
-    """Return whether a process is there, and no corpse that nobody has buried."""
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    return state(process) not in ("Z", "X")
 
 
 def children(process):

@@ -220,15 +220,10 @@ def test_a_series_of_few_arms_is_found_with_few_arms():
     assert np.all(np.abs([below - 0.05, above - 0.05]) <= 1 / len(drawn))
 
 
-@pytest.mark.parametrize(("seed", "exponent"), [(0, 0.2), (1, 0.5)])
-def test_a_long_sweep_with_little_noise_has_a_series(seed, exponent):
+def test_a_long_sweep_with_little_noise_has_a_series():
     # neighbouring arms look alike, and the search for moduli goes in and out among them
-    sweep = curve(
-        seed,
-        noise=0.005,
-        material=replace(SMOOTH, exponent=exponent),
-        omega=np.geomspace(1e-2, 1e5, 43),
-    )
+    solid = replace(SMOOTH, exponent=0.2)
+    sweep = curve(noise=0.005, material=solid, omega=np.geomspace(1e-2, 1e5, 43))
     series = fit_series(observed(sweep, poisson_ratio=0.5), arms=None, level=0.9, draws=0, seed=0)
     assert 0.0025 < series.scatter < 0.0075
     assert min(modulus for modulus, _ in series.material.branches) > 0
