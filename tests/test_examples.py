@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from picture_units import in_si
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -20,9 +19,8 @@ def load(name):
     return module
 
 
-def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys, monkeypatch):
-    picture, drawn, save = tmp_path / "lens.png", [], vt.save_figure
-    monkeypatch.setattr(vt, "save_figure", lambda x, path: (drawn.append(x), save(x, path)))
+def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys):
+    picture = tmp_path / "lens.png"
     elastic, results = load("pdms_lens").main(
         [1e-6, 1e-3], accuracy=2e-3, picture=picture, short_speeds=()
     )
@@ -33,14 +31,6 @@ def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys, monkeypatch):
     assert picture.stat().st_size > 10_000
     printed = capsys.readouterr().out
     assert str(picture) in printed and "1000.0" in printed
-    left, right = drawn[0].axes
-    x, y = left.collections[0].get_offsets().data.T
-    assert in_si(left.xaxis, x) == pytest.approx([1e-6, 1e-3])
-    assert in_si(left.yaxis, y) * 1e3 == pytest.approx(forces)
-    least = [line.get_ydata().min() for line in right.lines if len(line.get_xdata()) > 2]
-    assert in_si(right.yaxis, least) * 1e3 == pytest.approx(
-        [-slow, *(-f for f in forces)], rel=1e-3
-    )
 
 
 def test_bead_comes_off(tmp_path, monkeypatch, capsys):
