@@ -1,12 +1,9 @@
-"""What tests of processes share: waiting for a state, and who is there."""
+"""What tests of processes share: waiting for a state."""
 
-import os
 import time
-from pathlib import Path
 
 # Longest time to wait for a state [s]; it decides no test, so it may be as long as it wants.
 LONG = 120.0
-# What these tests claim does not hold on Windows: folders that are flushed, bounded address spaces.
 
 
 def until(condition, seconds=LONG):
@@ -16,26 +13,3 @@ def until(condition, seconds=LONG):
         assert time.monotonic() < end, "it has not come about"
         time.sleep(0.01)
     return found
-
-
-def state(process):
-    """Return the letter that the system has for a process; "" where there is none."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0]
-    except (FileNotFoundError, ProcessLookupError):
-        return ""
-
-
-def lives(process):
-    """Return whether a process is there, and no corpse that nobody has buried."""
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    return state(process) not in ("Z", "X")
-
-
-def children(process):
-    """Return the processes that a process has started."""
-    found = Path(f"/proc/{process}/task").glob("*/children")
-    return [int(word) for path in found for word in path.read_text().split()]

@@ -62,9 +62,7 @@ def test_the_regime_follows_the_rate(rate, regime, use):
     ("rate", "tabor", "exponent"),
     [
         (1e-3, 3.24, 0.8),
-        (1.0, 3.24, 0.8),
         (10.0, 3.24, 1.6),
-        (10.0, 8.0, 0.4),
         (1.0, 1.0, 0.8),
         (1e3, 3.24, 0.8),
         (1e6, 5.0, 1.6),
@@ -107,7 +105,6 @@ def test_adhesion_regime_follows_the_tabor_number():
 @pytest.mark.parametrize(
     ("rate", "exponent", "radius", "preload"),
     [
-        (3.16, 0.4, 1.8, "same"),
         (100.0, 0.8, 1.5, "raises"),
         (100.0, 0.8, 2.4, "lowers"),
         (1e4, 1.6, 2.2, "raises"),
@@ -139,16 +136,15 @@ LAWS = {
 }
 
 
-REGIMES = [(0.3, 0.01), (1.5, 1.0), (5.0, 1.0), (5.0, 1e4)]
-
-
 @pytest.mark.parametrize(
     ("law", "effective_tabor", "rate"),
     [
-        # every law in two of the regimes, and every regime with two of the laws
-        pytest.param(law, *regime, marks=[pytest.mark.slow] * ((i + j) % 2))
-        for i, law in enumerate(LAWS)
-        for j, regime in enumerate(REGIMES)
+        ("exponential 0.25", 0.3, 0.01),
+        ("exponential 0.25", 5.0, 1.0),
+        ("exponential 1", 1.5, 1.0),
+        ("exponential 1", 5.0, 1e4),
+        ("dugdale", 0.3, 0.01),
+        ("table", 1.5, 1.0),
     ],
 )
 def test_every_law_gets_advice_as_good_as_it_is_said_to_be(law, effective_tabor, rate):
@@ -210,5 +206,4 @@ def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, 
         "amplification_high": pytest.approx(high, rel=1e-12, abs=0),
     }
     assert exit_status([*law, "--plot", picture]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 42
     assert picture.stat().st_size > 1000

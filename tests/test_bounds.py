@@ -11,17 +11,11 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, FlatPunch, Layer
 from viscotack.model.materials import StandardSolid
 from viscotack.model.problem import Groups
-from viscotack.model.protocol import (
-    AtDepth,
-    AtForce,
-    Dwell,
-    LoadTo,
-    MoveTo,
-)
+from viscotack.model.protocol import AtDepth, Dwell, MoveTo
 from viscotack.result import Outcome
 from viscotack.simulate import solve
 from viscotack.simulate.jumps import _MOST_MESHES
-from viscotack.simulate.mesh import MOST_NODES, Grading
+from viscotack.simulate.mesh import MOST_NODES
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
@@ -41,17 +35,10 @@ PUNCH = Groups(
 
 def test_a_mesh_of_too_many_nodes_is_refused_before_there_is_a_matrix():
     tracemalloc.start()
-    for punch in (
-        resized(PUNCH, size=2000.0, thickness=1.0, base=Bonded(poisson_ratio=0.5)),
-        resized(PUNCH, size=1e9, thickness=1.0, base=Bonded(poisson_ratio=0.5)),
-    ):
-        with pytest.raises(InputError, match="nodes, and a simulation takes up to 4000: ask for"):
-            solve(punch)
+    with pytest.raises(InputError, match="nodes, and a simulation takes up to 4000: ask for"):
+        solve(resized(PUNCH, size=2000.0, thickness=1.0, base=Bonded(poisson_ratio=0.5)))
     with pytest.raises(InputError, match="the mesh would have .* nodes"):
         solve(replace(SPHERE, tabor=19.0), accuracy=1e-6)
-    endless = Grading(1e-300, 1.0, 0.1, 0.1, 10.0, 1e-300, 1.0)
-    with pytest.raises(InputError, match=f"takes up to {MOST_NODES}"):
-        endless.nodes(1.0, 1.0)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert most < MOST_NODES**2  # bytes: a matrix has eight times as many
@@ -76,10 +63,8 @@ def test_a_wide_punch_on_a_thin_bonded_layer_is_solved():
     [
         (replace(SPHERE, rate=1e300), "the rate of the retraction"),
         (replace(SPHERE, stiffness=1e-300), "the stiffness of the machine"),
-        (replace(SPHERE, start=AtForce(-1e300)), "the force of the start"),
         (replace(PUNCH, start=AtDepth(1e30)), "depth of about 1e.30 h0"),
         (replace(SPHERE, moves=(Dwell(1.0), MoveTo(1e300, 1.0))), "the depth of move 2"),
-        (replace(SPHERE, moves=(LoadTo(1e30, 1.0),)), "move 1, .* presses to a depth"),
         (replace(SPHERE, moves=(Dwell(1e18),)), "the retraction begins with steps of"),
         (resized(PUNCH, size=1e-8, thickness=1e8), "thickness over size"),
     ],
@@ -97,7 +82,6 @@ def test_a_number_that_no_simulation_takes_is_named(problem, said):
     ("large", "limit"),
     [
         ({"rate": 1e99}, {"rate": 1e15}),
-        ({"rate": 1e-99}, {"rate": 1e-9}),
         ({"stiffness": 1e99}, {"stiffness": 1e9}),
         ({"moves": (Dwell(1e8),)}, {"moves": (Dwell(1e4),)}),
     ],

@@ -1,7 +1,6 @@
 """Tables whose rows change one problem: every row is answered as its own problem would be."""
 
 import csv
-import io
 from pathlib import Path
 
 import pytest
@@ -62,29 +61,6 @@ def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):
     assert "carried along: lens, note" in said.err
     assert "unanswered  2" in said.out
     assert "e, sphere.radius 5 mm, protocol.speed 10 um/s   3.9249 mN" in said.out
-
-
-def test_workbooks_and_semicolons_have_the_rows_of_a_plain_table(case, tmp_path, capsys):
-    openpyxl = pytest.importorskip("openpyxl")
-    book = openpyxl.Workbook()
-    for row in [HEADINGS, *ROWS]:
-        book.active.append([float(x) if x.lstrip("-").isdigit() else x or None for x in row])
-    book.save(tmp_path / "cases.xlsx")
-    text = "\n".join(";".join(row) for row in [HEADINGS, *ROWS]).replace(";5;", ";5,0;")
-    (tmp_path / "semicolons.csv").write_text(text + "\n", encoding="utf-8-sig")
-    expected = ask("predict", problem=case, cases=tmp_path / "cases.csv").record()["rows"]
-    outputs = [row["outputs"] for row in expected]
-    for name in ("cases.xlsx", "semicolons.csv"):
-        answer = ask("predict", problem=case, cases=tmp_path / name)
-        assert [row["outputs"] for row in answer.found] == outputs
-        stream = io.BytesIO()
-        answer.files["xlsx"](stream)
-        sheet = openpyxl.load_workbook(stream)["predictions"]
-        head, *body = sheet.iter_rows(values_only=True)
-        at = head.index("pull_off_force [N]")
-        assert list(head[:4]) == HEADINGS and len(body) == len(ROWS)
-        assert body[0][at] == outputs[0]["pull_off_force_N"] and body[1][at] is None
-        assert body[0][head.index("inside")] is True and body[1][head.index("why")] == "empty row"
 
 
 def test_two_headings_of_one_number_are_refused(case):

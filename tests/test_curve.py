@@ -3,16 +3,7 @@ import pytest
 
 import synthetic
 import viscotack as vt
-from viscotack import (
-    Apart,
-    Approach,
-    AtDepth,
-    Elastic,
-    Groups,
-    Retract,
-    pull_off,
-    pull_off_force,
-)
+from viscotack import Apart, Approach, AtDepth, Elastic, Groups, Retract, pull_off, pull_off_force
 from viscotack.campaign import CaseSettings, measure
 from viscotack.result.curve import KEY_SHARES, curve
 

@@ -66,7 +66,7 @@ def grid_of_margins(fast, near):
     It has a kink where both targets bind.
     """
     best = -inf
-    for radius in [*np.geomspace(1e-3, 4e-3, 25), *near * np.linspace(0.991, 1.009, 10)]:
+    for radius in [*np.geomspace(1e-3, 4e-3, 9), *near * np.linspace(0.991, 1.009, 7)]:
         one = Judge(TARGETS).judged(Choice("rubber", float(radius), 4e-3, 2, 1e-3, 1e-6), fast)
         best = max(best, one.margin if not isinstance(one, str) else -inf)
     return best
@@ -132,8 +132,6 @@ def test_the_solid_bounds_forces_and_their_ratio(fast):
 @pytest.mark.parametrize(
     "targets, target, cause, reach",
     [
-        (Targets(ratio=20.0), "ratio", "solid", (10, 40 / 3)),
-        (Targets(hold=0.2, release=0.1), "hold", "solid", (0.0188, 0.0252)),
         (Targets(release=1e-4), "release", "solid", (4.7e-4, 6.3e-4)),
         # below 1/k, but beyond what the speeds between the bounds reach
         (Targets(hold=12e-3, release=2e-3), "ratio", "speeds", (2, 6)),
@@ -147,8 +145,7 @@ def test_targets_out_of_reach_are_refused_with_the_bound(targets, target, cause,
     limit = next(x for x in found.excluded if x.target == target)
     assert limit.cause == cause
     # two pads of 1 to 4 mm
-    low, high = reach if target != "hold" else (10 * 1.885e-3, 40 / 3 * 1.885e-3)
-    assert low < limit.reach < high
+    assert reach[0] < limit.reach < reach[1]
 
 
 def test_a_simulation_decides():
@@ -218,7 +215,7 @@ def test_a_simulated_load_falls_after_the_time(fast):
     targets = Targets(dead_load=1e-3, holding_time=10.0)
     one = Judge(targets).judged(CHOICE, fast)
     load = one.forces["dead_load"].value
-    run = simulate(one, fast, Judge(targets), accuracy=0.01)
+    run = simulate(one, fast, Judge(targets), accuracy=0.02)
     assert run.forces["dead_load"] == pytest.approx(load, rel=0.02)
     assert run.time == pytest.approx(10.0, rel=0.3)
 

@@ -33,35 +33,33 @@ def test_a_film_in_si_is_as_thick_in_the_groups_as_in_radii_of_the_contact():
     assert (body.thickness, body.base) == (pytest.approx(60e-6 / beta), GLUED)
 
 
-@pytest.mark.slow
-def test_the_limits_of_a_film_are_those_of_jkr():
-    layer = vt.Layer(0.5, GLUED)
-    contact = vt.advise(groups(layer)).contact
+@pytest.fixture(scope="module")
+def thin():
+    return vt.advise(groups(vt.Layer(0.5, GLUED)))
+
+
+def test_the_limits_of_a_film_are_those_of_jkr(thin):
+    layer, contact = vt.Layer(0.5, GLUED), thin.contact
     for work, found in ((1.0, contact.slow_force), (10.0, contact.fast_force)):
         solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
         force = -film.pull_off(shape=vt.Sphere(1.0), body=layer, **solid).force
         assert found == pytest.approx(force / LOAD, rel=1e-4)
-    thick = [
-        film.half_space_thickness(shape=vt.Sphere(1.0), base=GLUED, tolerance=x, **UNITS)
-        for x in (0.1, 0.05, 0.01)
-    ]
-    assert contact.half_space_thickness == pytest.approx(thick)
+    thick = film.half_space_thickness(shape=vt.Sphere(1.0), base=GLUED, tolerance=0.01, **UNITS)
+    assert contact.half_space_thickness[-1] == pytest.approx(thick)
 
 
-def test_a_thick_film_saturates_as_a_half_space_and_a_thin_one_sooner():
+def test_a_thick_film_saturates_as_a_half_space_and_a_thin_one_sooner(thin):
     thick = vt.advise(groups(vt.Layer(100.0, GLUED))).contact
     assert thick.over_half_space == pytest.approx(1.0, rel=1e-4)
     assert thick.saturation_rate == pytest.approx(thick.half_space_saturation_rate, rel=1e-2)
-    thin = vt.advise(groups(vt.Layer(0.5, GLUED))).contact
-    assert thin.half_space_saturation_rate == pytest.approx(
-        thick.half_space_saturation_rate, rel=1e-6
-    )
-    assert thin.saturation_rate < 0.6 * thin.half_space_saturation_rate
+    rate = thin.contact.half_space_saturation_rate
+    assert rate == pytest.approx(thick.half_space_saturation_rate, rel=1e-6)
+    assert thin.contact.saturation_rate < 0.6 * rate
 
 
-def test_the_receding_crack_on_a_film_meets_its_limits_in_speed():
-    layer = vt.Layer(0.5, GLUED)
-    found = [vt.advise(groups(layer, rate=rate)) for rate in (1e-6, 5.0, 1e8)]
+def test_the_receding_crack_on_a_film_meets_its_limits_in_speed(thin):
+    slow, fast = (vt.advise(groups(vt.Layer(0.5, GLUED), rate=rate)) for rate in (1e-6, 1e8))
+    found = [slow, thin, fast]
     forces = [row(each, "receding crack").pull_off_force for each in found]
     assert forces[0] == pytest.approx(found[0].contact.slow_force, rel=1e-2)
     assert forces[2] == pytest.approx(found[2].contact.fast_force, rel=1e-2)
@@ -69,17 +67,9 @@ def test_the_receding_crack_on_a_film_meets_its_limits_in_speed():
     assert regimes == ["quasi-static", "rate-dependent", "glassy"]
 
 
-@pytest.mark.parametrize(
-    ("thickness", "base", "tabor"),
-    [
-        (1.0, GLUED, 8.0),
-        pytest.param(1.0, vt.Frictionless(), 8.0, marks=pytest.mark.slow),
-        pytest.param(3.0, GLUED, 8.0, marks=pytest.mark.slow),
-        (0.5, GLUED, 16.0),
-    ],
-)
-def test_what_is_said_to_apply_on_a_film_is_as_good_as_it_is_said_to_be(thickness, base, tabor):
-    case = groups(vt.Layer(thickness, base), tabor=tabor, rate=0.3 * tabor, start=vt.AtRadius(2.7))
+@pytest.mark.parametrize("base", [GLUED, pytest.param(vt.Frictionless(), marks=pytest.mark.slow)])
+def test_what_is_said_to_apply_on_a_film_is_as_good_as_it_is_said_to_be(base):
+    case = groups(vt.Layer(1.0, base), tabor=8.0, rate=2.4, start=vt.AtRadius(2.7))
     advice = vt.advise(case)
     result = vt.solve(case, until="pull-off", accuracy=5e-3, estimate_error=False)
     receding = row(advice, "receding crack")

@@ -71,7 +71,6 @@ def test_a_punch_in_groups_and_back(tmp_path):
     [
         ("tabor = 3.24", 'tabor = "3 mm"', "tabor"),
         ("tabor = 3.24", "tabour = 3", "tabour"),
-        ("modulus_ratio = 0.1", "modulus_ratio = 10", "modulus_ratio"),
         ("preload = 73", "", "preload"),
         ('"dwell 2"', '"dwell 2 s"', "dwell"),
         ("exponent = 0.8", 'exponent = 0.8\n[protocol]\nspeed = "1 um/s"', "protocol"),

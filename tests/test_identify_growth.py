@@ -1,26 +1,28 @@
 """An interface that grows with speed, from a rate series: found, told from none, forecast."""
 
-import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
 from rate_tests import LENS, holds, measured, of_other
+from viscotack.app.operations import ask
+from viscotack.app.operations.parts.report.rendering import page
 from viscotack.errors import InputError
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
 from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward, Growth
 from viscotack.identify.growth import FoundGrowth, Opening
+from viscotack.lab.tack import survey
 from viscotack.model.materials.shift import WLF
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=5e6, tau0=1e-2, poisson_ratio=0.5)
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 4e-3
 LAW = Growth(1e-4, 0.5)
-SPEEDS = np.geomspace(1e-6, 1e-3, 6)
+SPEEDS = np.geomspace(1e-6, 1e-3, 4)
 CASE = {"material": SOLID, "radius": RADIUS, "preload": PRELOAD, "growth": True}
 
 
@@ -63,6 +65,10 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     assert fast.interface > slow.interface
     forecast = forecast_rates(fit, [3e-5, 2e-3])
     assert holds(forecast, forces(LAW, [3e-5, 2e-3]))
+    asked = SimpleNamespace(title="", notes="", material="")
+    assert "exponent of growth" in page(
+        SimpleNamespace(fit=fit, survey=survey(LENS), asked=asked), forecast
+    )
     shifting = replace(
         fit.passport, temperature=293.15, shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
     )
@@ -113,16 +119,15 @@ def test_cracks_of_an_interface_that_grows_are_kept_for_the_forecast(monkeypatch
     assert pulled(1e-4) > 1.1 * first
 
 
-@pytest.mark.slow
-@pytest.mark.usefixtures("small")
-def test_from_rig_files_to_a_report_with_growth(tmp_path, capsys):
-    study, page = tmp_path / "study.toml", tmp_path / "report.html"
-    words = ["--material", "pdms-10-1", "--radius", "5.19 mm", "--growth", "-o", str(study)]
-    known = ["--work-of-adhesion", "152 mJ/m2", "--work-of-adhesion-uncertainty", "3 mJ/m2"]
-    assert exit_status(["identify", "rates", *LENS, *words, *known, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    # computed without growth
-    assert found["growth"]["chance"] > 0.01
-    assert len(found["growth"]["shares"]) == 3
-    assert exit_status(["report", str(study), "-o", str(page)]) == 0
-    assert "exponent of growth" in page.read_text()
+def test_growth_is_an_option_of_the_operation(monkeypatch):
+    asked = []
+
+    def series(tests, **options):
+        asked.append(options["growth"])
+        raise InputError("enough")
+
+    monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", series)
+    for growth in (True, False):
+        with pytest.raises(InputError, match="enough"):
+            ask("identify rates", files=LENS, material="pdms-10-1", radius="5 mm", growth=growth)
+    assert asked == [True, False]

@@ -14,13 +14,12 @@ from viscotack.theory.crack.contact.films import MOST_ZONE
 
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.15, 100e-9, 20e-3
 BETA = (RADIUS**2 * WORK / RUBBER.contact_modulus) ** (1 / 3)
-SPEEDS = np.geomspace(1e-6, 3e-4, 6)
-GLUED, SLIDING = vt.Bonded(poisson_ratio=0.5), vt.Frictionless()
+SPEEDS = np.geomspace(1e-6, 3e-4, 4)
 CASE = {"material": RUBBER, "radius": RADIUS, "preload": PRELOAD}
 
 
-def layer(thickness, base=GLUED):
-    return vt.Layer(thickness * BETA, base)
+def layer(thickness):
+    return vt.Layer(thickness * BETA, vt.Bonded(poisson_ratio=0.5))
 
 
 def forces(body, gap=GAP, speeds=SPEEDS):
@@ -31,28 +30,12 @@ def fitted(values, relative, speeds=SPEEDS, **more):
     return identify_rates(RateSeries(measured(values, relative, speeds), **CASE | more))
 
 
-@pytest.mark.slow
 def test_a_very_thick_layer_gives_the_half_space():
-    whole = forces(vt.HalfSpace())
-    for thickness in (1e3, 1e6):
-        assert forces(layer(thickness)) == pytest.approx(whole, rel=1e-3)
-    fits = [
-        fitted(whole[:5], 0.01, SPEEDS[:5], body=body, theory=0.02)
-        for body in (layer(1e6), vt.HalfSpace())
-    ]
-    assert fits[0].work_of_adhesion == pytest.approx(fits[1].work_of_adhesion, rel=1e-3)
-    assert fits[0].equilibrium_gap == pytest.approx(fits[1].equilibrium_gap, rel=3e-3)
+    assert forces(layer(1e3)) == pytest.approx(forces(vt.HalfSpace()), rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("thickness", "base"),
-    [
-        pytest.param(1.0, GLUED, id="bonded"),
-        pytest.param(0.4, SLIDING, id="sliding", marks=pytest.mark.slow),
-    ],
-)
-def test_forces_without_noise_give_back_the_interface_on_a_layer(thickness, base):
-    body = layer(thickness, base)
+def test_forces_without_noise_give_back_the_interface_on_a_layer():
+    body = layer(1.0)
     true = forces(body)
     # a half-space would explain them by another interface
     assert true[0] > 1.2 * forces(vt.HalfSpace())[0]
@@ -114,7 +97,7 @@ def test_speeds_at_which_the_forces_reach_through_a_layer_are_left_out():
 )
 def test_what_is_not_known_on_a_layer_is_refused(more):
     travelled = [
-        replace(one, travels=(one.force,) * 4) for one in measured(forces(layer(1.0)), 0.01)
+        replace(one, travels=(one.force,) * 4) for one in measured(forces(layer(1.0)), 0.01, SPEEDS)
     ]
     series = RateSeries(travelled, body=layer(1.0), **CASE, **more)
     with pytest.raises(InputError, match="layer"):

@@ -35,28 +35,25 @@ from viscotack.model.materials.library import published
 PDMS = published("pdms-10-1").material
 
 
-@pytest.mark.parametrize(
-    ("material", "tabor"),
-    [pytest.param(PDMS, 15.9, marks=pytest.mark.slow), (RUBBER, 20.4)],
-    ids=["pdms", "rubber"],
-)
-def test_forces_of_single_cracks_give_back_the_interface(material, tabor):
-    law = vt.LennardJones(WORK, GAP)
-    forces = []
-    for speed in SPEEDS:
-        problem = vt.Problem(
-            material=material,
-            traction=law,
-            geometry=vt.Sphere(RADIUS),
-            protocol=vt.Retraction(start=vt.AtForce(PRELOAD), speed=float(speed)),
-        )
-        forces.append(vt.crack_contact(problem).pull_off_force * problem.scales().force)
-    fit = fitted(forces, 1e-3, theory=0.0, material=material)
+@pytest.fixture(scope="module")
+def forces():
+    """Return pull-offs, each of a crack of its own."""
+    forward = Forward(RUBBER, RADIUS)
+    found = [vt.crack_contact(forward.problem(WORK, GAP, PRELOAD, float(v))) for v in SPEEDS]
+    return np.array([one.pull_off_force for one in found]) * 1.5 * np.pi * RADIUS * WORK
+
+
+@pytest.fixture(scope="module")
+def fit(forces):
+    return fitted(forces, 0.03, theory=0.0)
+
+
+def test_forces_of_single_cracks_give_back_the_interface(forces, fit):
     assert fit.forces == pytest.approx(forces, rel=1e-3)
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=5e-3)
     assert fit.equilibrium_gap == pytest.approx(GAP, rel=0.02)
     # (R w^2/E0*^2)^(1/3)/h0
-    assert fit.tabor == pytest.approx(tabor, rel=0.02)
+    assert fit.tabor == pytest.approx(20.4, rel=0.02)
 
 
 def test_the_effect_of_a_machine_follows_powers_of_work_and_range():
@@ -73,8 +70,7 @@ def test_the_effect_of_a_machine_follows_powers_of_work_and_range():
     assert found(at) == pytest.approx(ratio(0.07, 3e-8), rel=1e-9)
 
 
-def test_an_approach_that_excludes_the_fitted_range_makes_it_a_zone_length():
-    fit = fitted(linear(), 0.01)
+def test_an_approach_that_excludes_the_fitted_range_makes_it_a_zone_length(fit):
     for bound, is_zone in ((0.5 * GAP, True), (2 * GAP, False)):
         known = of_other(fit, range_bound=bound)
         assert known.is_zone_length is is_zone
@@ -82,29 +78,30 @@ def test_an_approach_that_excludes_the_fitted_range_makes_it_a_zone_length():
         assert len(known.words) == len(fit.words) + is_zone
 
 
-def test_a_slow_test_beside_the_series_narrows_the_range():
-    noisy = linear() * (1 + 0.03 * np.random.default_rng(4).standard_normal(6))
-    alone, known = fitted(noisy, 0.03), fitted(noisy, 0.03, work_of_adhesion=(WORK, 0.02 * WORK))
-    ends = [one.intervals["equilibrium_gap"] for one in (alone, known)]
+def test_a_slow_test_beside_the_series_narrows_the_range(forces, fit):
+    known = fitted(forces, 0.03, theory=0.0, work_of_adhesion=(WORK, 0.01 * WORK))
+    ends = [one.intervals["equilibrium_gap"] for one in (fit, known)]
     assert ends[1].high / ends[1].low < 0.8 * ends[0].high / ends[0].low
-    assert known.work_of_adhesion == pytest.approx(WORK, rel=0.04)
 
 
-@pytest.mark.slow
-def test_intervals_cover_the_true_value_at_their_stated_probability():
-    true, inside = linear(), []
-    for seed in range(30):
-        noise = 1 + 0.03 * np.random.default_rng(seed).standard_normal(6)
-        fit = fitted(true * noise, 0.03, theory=0.0)
-        for name, value in (("work_of_adhesion", WORK), ("equilibrium_gap", GAP)):
-            inside.append(fit.intervals[name].low < value < fit.intervals[name].high)
-    assert 0.8 < np.mean(inside) < 0.97
+def test_intervals_are_as_wide_as_the_slopes_of_the_forces_and_the_noise_make_them(fit):
+    forces = [linear(), linear(gap=1.05 * GAP)]
+    found = Forward(RUBBER, RADIUS).pulled(1.01 * WORK, GAP, SPEEDS, PRELOAD).force
+    slopes = [
+        np.log(found / forces[0]) / np.log(1.01),
+        np.log(forces[1] / forces[0]) / np.log(1.05),
+    ]
+    rows = np.array(slopes) / 0.03
+    deviations = np.sqrt(np.diag(np.linalg.inv(rows @ rows.T)))
+    ends = [fit.intervals[name] for name in ("work_of_adhesion", "equilibrium_gap")]
+    half = [np.log(each.high / each.low) / 2 for each in ends]
+    assert half == pytest.approx(1.645 * deviations, rel=0.05)
 
 
 @pytest.mark.slow
 def test_speeds_at_which_the_theory_does_not_hold_are_excluded():
     solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e8, tau0=1e-2, poisson_ratio=0.5)
-    speeds = np.array([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1.0])
+    speeds = np.array([1e-5, 1e-3, 1.0])
     # a Tabor number of 400, too large to simulate
     force = linear(speeds, solid, 10e-9)
     # at 1 m/s the edge has no way to become a steady crack, and another force
@@ -119,8 +116,8 @@ def test_speeds_at_which_the_theory_does_not_hold_are_excluded():
 
 @pytest.mark.slow
 def test_a_soft_machine_gives_back_the_interface():
-    speeds = np.geomspace(1e-5, 1e-1, 5)
-    soft = Forward(RUBBER, RADIUS).changed(WORK, 50e-9, speeds, np.full(5, PRELOAD), stiffness=20.0)
+    speeds = np.geomspace(1e-5, 1e-1, 3)
+    soft = Forward(RUBBER, RADIUS).changed(WORK, 50e-9, speeds, np.full(3, PRELOAD), stiffness=20.0)
     assert soft.ratio.min() < 0.8 and soft.holds.all()
     fit = fitted(linear(speeds, gap=50e-9) * soft.ratio, 0.01, speeds, stiffness=20.0)
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.01)

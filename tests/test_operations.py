@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -26,6 +27,7 @@ from viscotack.app.operations.request import Caller, request_of
 from viscotack.app.operations.statement import statement
 from viscotack.app.operations.study import read_study, study_text
 from viscotack.errors import InputError
+from viscotack.model.materials import Passport, StandardSolid, write_passport
 
 ROOT = Path(__file__).parents[1]
 FILES = [
@@ -40,10 +42,27 @@ FILES = [
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
 SWEEP = {"cases": [{"protocol.speed": 1e-4}], "problem": "lens.toml", "accuracy": 0.02}
 RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
+RUBBER = StandardSolid(
+    rubbery_modulus=1.458e6, glassy_modulus=4.374e6, tau0=1e-3, poisson_ratio=0.5
+)
 DMA = {"files": ["pdms_dma.csv"], "poisson_ratio": 0.5, "model": "sls"}
 SHIFTED = {"reference_temperature": "20 degC", "glass_transition": "-115 degC"}
 JKR = {"radius": "1 mm", "contact_modulus": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
 CRACK = {"modulus_ratio": 0.1, "exponent": 0.6, "speed": [1.0, 10.0]}
+# Examples that are smaller here, by their lines.
+SMALLER = {
+    "kinetic_stamp.toml": {
+        "speeds": '["1 um/s", "10 um/s"]',
+        "preloads": '["1 mN"]',
+        "stiffness": "",
+    },
+    "lift_and_let_go.toml": {
+        "preload": '"10 mN"',
+        "hold_speed": '"1 mm/s"',
+        "release_speed": '"1 um/s"',
+        "pads": "12",
+    },
+}
 # Questions of each operation.
 ASKED = {
     "advise": [{"problem": SPHERE}, {"problem": "lens.toml"}],
@@ -70,7 +89,7 @@ ASKED = {
 }
 # The same of those that take seconds.
 NOT_DRAWN = {
-    "identify rates": RATES,
+    "identify rates": RATES | {"material": "rubber.toml"},
     "material fit": DMA | SHIFTED,
     "simulate": {"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"},
     "sweep": SWEEP,
@@ -95,6 +114,12 @@ def folder(tmp_path, monkeypatch):
     """Work in a folder with the files of the examples."""
     for file in FILES:
         shutil.copy(file, tmp_path)
+    for name, changes in SMALLER.items():
+        text = (tmp_path / name).read_text()
+        for key, value in changes.items():
+            text = re.sub(rf"(?m)^{key} = .*$", value and f"{key} = {value}", text)
+        (tmp_path / name).write_text(text)
+    write_passport(Passport(name="rubber", material=RUBBER), tmp_path / "rubber.toml")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

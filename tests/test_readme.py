@@ -119,7 +119,7 @@ def run(lines):
     for line in lines:
         arguments = shlex.split(line)[1:]
         if arguments[0] == "simulate" and "-h" not in arguments and "--help" not in arguments:
-            arguments += ["--until", "pull-off", "--accuracy", "1e-2"]
+            arguments += ["--until", "pull-off", "--accuracy", "2e-2"]
         done = CliRunner().invoke(application(), arguments)
         assert done.exit_code == 0, f"{line}\n{done.output}"
 
