@@ -23,7 +23,7 @@ from .reduced import ReducedContact
 # Least Tabor number: from here on histories of the edge law were compared with simulations.
 LEAST = 8.0
 # Cells: equal ones up to a radius [beta], then each longer by a factor; the last has no end.
-_EQUAL, _UP_TO, _LONGER, _FACTOR, _END = 40, 3.0, 20, 1.15, 1e6
+_EQUAL, _UP_TO, _LONGER, _FACTOR, _END = 80, 3.0, 20, 1.15, 1e6
 # Window of the arms [s], and their error over the rubbery compliance.
 _WINDOW, _TOLERANCE = (1e-6, 1e6), 2e-3
 # Rows of the tables, and their ends for an elastic solid.
