@@ -5,7 +5,7 @@ import importlib.util
 import shutil
 import subprocess
 from dataclasses import replace
-from math import pi
+from math import inf, pi
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,10 @@ from typer.testing import CliRunner
 import viscotack as vt
 from viscotack.app.cli import application
 from viscotack.design.control import reduced_contact, reduced_header
+from viscotack.design.window.simulated import part_of, posed_contact
 from viscotack.errors import InputError, OutOfRange
+from viscotack.simulate.march import SteppedSimulation
+from viscotack.simulate.settings import Settings
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.01, poisson_ratio=0.5)
 LAW = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=5e-9)
@@ -38,6 +41,13 @@ JKR = 1.5 * pi * 1e-3 * 0.05
 @pytest.fixture(scope="module")
 def ball():
     return reduced_contact(BALL)
+
+
+def pull_off(depth, force):
+    """Return pull-off force and work to pull-off of a pull, from its positive force."""
+    peak = int(force.argmin())
+    pulled = slice(int(np.flatnonzero(force[:peak] > 0)[-1]) + 1, peak + 1)
+    return -force[peak], np.trapezoid(force[pulled], depth[pulled])
 
 
 def driven(contact, *legs, steps=150):
@@ -89,12 +99,59 @@ def test_pull_off_and_work_are_those_of_the_edge_that_is_a_steady_crack(
     far = depth + 2e-5
     legs = (depth, depth / approach), (depth, dwell), (depth - far, far / speed)
     z, force, _ = driven(reduced_contact(problem), *legs, steps=250)
-    z, force = z[500:], force[500:]
-    peak = int(force.argmin())
-    assert -force[peak] == pytest.approx(found.pull_off_force * unit.force, rel=0.01)
-    pulled = slice(int(np.flatnonzero(force[:peak] > 0)[-1]) + 1, peak + 1)
-    work = np.trapezoid(force[pulled], z[pulled])
+    peak, work = pull_off(z[500:], force[500:])
+    assert peak == pytest.approx(found.pull_off_force * unit.force, rel=0.01)
     assert work == pytest.approx(found.work_to_pull_off * unit.force * unit.length, rel=0.03)
+
+
+def test_pull_off_and_work_are_those_of_a_simulation_within_the_bands():
+    # short dwell: the edge opens over ground that it has just closed, cell by cell
+    depth, approach, dwell, speed = 1.28e-6, 2.82e-4, 1.1e-3, 7.15e-4
+    solid = vt.Prony(
+        rubbery_modulus=1e6, branches=((7.8e6, 1e-3), (5.6e6, 1e-2)), poisson_ratio=0.5
+    )
+    moves = (vt.Approach(approach, vt.AtDepth(depth)), vt.Dwell(dwell))
+    problem = vt.Problem(
+        material=solid,
+        traction=vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=28.9e-9),
+        geometry=vt.Sphere(radius=1e-3),
+        protocol=vt.Retraction(start=vt.Apart(1.3e-6), moves=moves, speed=speed),
+    )
+    found, unit = vt.solve(problem, until="pull-off"), problem.scales()
+    contact, far = reduced_contact(problem), 3e-6
+    legs = (depth, depth / approach), (depth, dwell), (depth - far, far / speed)
+    z, force, _ = driven(contact, *legs, steps=500)
+    peak, work = pull_off(z[1000:], force[1000:])
+    assert contact.force_band < 0.05 and contact.work_band < 0.08
+    assert abs(peak / (found.pull_off_force * unit.force) - 1) < contact.force_band
+    assert abs(work / (found.work_to_pull_off * unit.force * unit.length) - 1) < contact.work_band
+
+
+def test_a_ball_bounces_as_in_a_simulation():
+    ball = replace(
+        BALL,
+        material=replace(RUBBER, rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3),
+        traction=replace(LAW, equilibrium_gap=40e-9),
+        geometry=vt.Sphere(radius=0.5e-3),
+        protocol=vt.Retraction(start=vt.Apart(1e-6), speed=1e-2),
+    )
+    mass, met, dt, unit = 2.1e-6, 0.1, 2e-6, ball.scales()
+    settings = Settings.for_accuracy(0.01)
+    part = part_of(posed_contact(ball, settings), settings, dt / 20, 1.0)
+    first = dt / 20 / unit.time
+    full = SteppedSimulation(part, inf, least_step=first, settings=settings)
+    speed = met
+    while not full.apart:
+        now = full.move(speed * unit.time / unit.length, dt / unit.time)
+        speed -= now.force * unit.force / mass * dt
+    contact = reduced_contact(ball)
+    state, depth, ours = contact.apart(-1e-6), -1e-6, met
+    while ours > 0 or state.radius[0] > 0:
+        depth += ours * dt / 2
+        state, _ = contact.step(state, depth, dt / 2)
+        ours -= contact.force(state)[0] / mass * dt / 2
+    assert -speed / met == pytest.approx(0.466, abs=0.01)
+    assert ours == pytest.approx(speed, rel=0.01)
 
 
 @pytest.mark.parametrize("problem", [BALL, ARMS])
@@ -129,6 +186,7 @@ def test_the_stiffness_bounds_that_of_a_fast_step(ball):
     "problem, kind, field",
     [
         (replace(BALL, traction=replace(LAW, equilibrium_gap=2e-6)), OutOfRange, "Tabor"),
+        (replace(BALL, material=replace(RUBBER, glassy_modulus=3e9)), OutOfRange, "zone"),
         (replace(BALL, geometry=vt.Cone(slope=0.1)), InputError, "sphere"),
         (
             replace(BALL, protocol=replace(BALL.protocol, stiffness=100.0)),

@@ -44,6 +44,8 @@ class ExportContact(Request):
         record = {
             "contact": found.of,
             "range": found.range,
+            "force_band": found.force_band,
+            "work_band": found.work_band,
             "cells": found.node.size - 1,
             "modes": found.modulus.size,
         }

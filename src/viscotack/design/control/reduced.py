@@ -107,6 +107,9 @@ class ReducedContact:
         The contact in words.
     range : str
         Where it holds.
+    force_band, work_band : float
+        Relative half widths of bands that hold 19 of 20 simulated pull-off forces, and works to
+        pull-off, of random approaches, dwells and pulls.
     """
 
     node: Array
@@ -122,6 +125,8 @@ class ReducedContact:
     radius_unit: float
     of: str
     range: str
+    force_band: float
+    work_band: float
 
     def apart(self, depth: Any) -> ContactState:
         """Return contacts that are apart and relaxed, at depths [m] not above 0."""

@@ -147,6 +147,8 @@ def reduced_header(contact: ReducedContact, name: str = "contact") -> str:
         **{each: _initialiser(getattr(contact, each)) for each in arrays},
         **{each: f"{getattr(contact, each):.17g}" for each in numbers},
         range=contact.range,
+        force_band=f"{contact.force_band:.2g}",
+        work_band=f"{contact.work_band:.2g}",
         cells=contact.node.size - 1,
         modes=contact.modulus.size,
         rows=contact.energy.shape[1],

@@ -2,6 +2,7 @@
  *
  * Made by viscotack $version for: $of
  * Range: $range.
+ * 19 of 20 simulated pull-off forces lie within a relative $force_band, works within $work_band.
  * In SI; depths are positive into the solid, forces in compression. C99 or C++, needs only math.h.
  * Every step is passive: the mean force times the change of depth is not below the change of
  * ${name}_storage. Copyright of this file: none (CC0).
