@@ -100,16 +100,16 @@ static inline int ${name}_cell(double r, int inside) {
   return low;
 }
 
-/* Free annuli after a time x over that of the arms; returns the rise of the surface. */
-static inline double ${name}_recover(const double *e, const double *x, double *out) {
+/* Free annuli after a time, kept = 1/(1 + time over that of the arm); returns the rise. */
+static inline double ${name}_recover(const double *e, const double *kept, double *out) {
   double surface = -${name}_sum(e), up = 0, arms = 0, rise;
   int m;
   for (m = 0; m < ${name}_modes; m++) {
-    double arm = ${name}_modulus[m] / (1 + x[m]);
+    double arm = ${name}_modulus[m] * kept[m];
     up += (surface - e[m]) * arm, arms += arm;
   }
   rise = up / (1 + arms);
-  for (m = 0; m < ${name}_modes; m++) out[m] = (rise - (surface - e[m])) / (1 + x[m]);
+  for (m = 0; m < ${name}_modes; m++) out[m] = (rise - (surface - e[m])) * kept[m];
   return rise;
 }
 
@@ -181,11 +181,12 @@ static inline double ${name}_follow(const $name *it, const double *level, int cl
 /* Move the edge to b if the storage does not rise. */
 static inline void ${name}_cross($name *it, double b, double dt) {
   double a = it->radius, low = fmin(a, b), high = fmax(a, b), rate = fabs(b - a) / dt, D = it->depth;
-  double other[$cells][$modes], x[$modes], glassy = 1, spare, energy = 0, factor = 1;
+  double other[$cells][$modes], kept[$modes], glassy = 1, spare, energy = 0, factor = 1;
   double area = ${name}_surface * ${name}_pi * fabs(b * b - a * a);
   int i, m, closes = b > a, first = ${name}_cell(low, 0), last = ${name}_cell(high, 1);
+  double zone = ${name}_row(${name}_zone_time, closes, rate);
   for (m = 0; m < ${name}_modes; m++) {
-    x[m] = ${name}_row(${name}_zone_time, closes, rate) / ${name}_time[m];
+    kept[m] = 1 / (1 + zone / ${name}_time[m]);
     glassy += ${name}_modulus[m];
   }
   spare = closes ? area : -area;
@@ -195,13 +196,13 @@ static inline void ${name}_cross($name *it, double b, double dt) {
     if (!(part > 0)) continue;
     if (closes) {
       double jump = level + ${name}_sum(it->outer[i]);
-      for (m = 0; m < ${name}_modes; m++) other[i][m] = (it->outer[i][m] + jump) / (1 + x[m]);
+      for (m = 0; m < ${name}_modes; m++) other[i][m] = (it->outer[i][m] + jump) * kept[m];
       spare += part * ${name}_stored(it->outer[i]) - pressed;
       energy += part * ${name}_squares(other[i]);
     } else {
       double chi = (level + ${name}_sum(it->inner[i])) / glassy, free[$modes];
       for (m = 0; m < ${name}_modes; m++) free[m] = it->inner[i][m] - chi;
-      ${name}_recover(free, x, other[i]);
+      ${name}_recover(free, kept, other[i]);
       spare += pressed + part * ${name}_squares(it->inner[i]);
       energy += part * ${name}_stored(other[i]);
     }
@@ -224,13 +225,14 @@ static inline void ${name}_cross($name *it, double b, double dt) {
  * mean, if not NULL, is set to the mean force of the step: times the change of depth, its work. */
 static inline double ${name}_step($name *it, double depth, double dt, double *mean) {
   double D = depth / ${name}_length, moved = D - it->depth, a = it->radius, b = a, arms = 0, work = 0;
-  double x[$modes], lost[$modes], share[$modes], half[$modes], free[$modes];
+  double x[$modes], kept[$modes], lost[$modes], share[$modes], half[$modes], free[$modes];
   double inside[$cells], above[$cells], lift, jump, force;
   int i, m, opens, closes, turns, onwards, loose;
   if (mean) *mean = NAN;
   if (!(dt > 0) || !isfinite(D)) return NAN;
   for (m = 0; m < ${name}_modes; m++) {
     x[m] = dt / ${name}_time[m];
+    kept[m] = 1 / (1 + x[m]);
     lost[m] = -expm1(-x[m]);
     share[m] = lost[m] / x[m];
     half[m] = x[m] < $series ? 0.5 - x[m] / 6 + x[m] * x[m] / 24 : (1 - share[m]) / x[m];
@@ -262,12 +264,15 @@ static inline double ${name}_step($name *it, double depth, double dt, double *me
   if (mean) *mean = (force + (work > 0 ? work / moved : 0)) * ${name}_newton;
   if (b > a) it->front = b;
   it->depth = D, it->radius = a = b;
-  /* recovery of free annuli */
+  /* recovery of free annuli; strains too small to matter are denormal numbers, which are slow */
   for (i = 0; i < ${name}_cells; i++) {
-    double low = fmax(${name}_node[i], a), rise = ${name}_recover(it->outer[i], x, free);
-    if (!(D - low * low > rise))
-      for (m = 0; m < ${name}_modes; m++) it->outer[i][m] = free[m];
-    inside[i] = ${name}_sum(it->inner[i]), above[i] = ${name}_sum(it->outer[i]);
+    double low = fmax(${name}_node[i], a), rise, *e = it->outer[i];
+    inside[i] = ${name}_node[i] < a ? ${name}_sum(it->inner[i]) : 0, above[i] = 0;
+    if (${name}_node[i + 1] <= a) continue;
+    rise = ${name}_recover(e, kept, free);
+    for (m = 0; m < ${name}_modes && !(D - low * low > rise); m++)
+      e[m] = fabs(free[m]) > 1e-150 ? free[m] : 0;
+    above[i] = ${name}_sum(e);
   }
   /* the edge */
   ${name}_excess(it, inside, 0, fmax(a, 1e-12), 0, &lift);
