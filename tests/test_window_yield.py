@@ -36,19 +36,6 @@ def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(
     assert off == pytest.approx([-0.01, 0.01], rel=0.03)
 
 
-def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs():
-    stamp = contact(ELASTIC, work=0.2)
-    drawn = np.exp(0.1 * np.random.default_rng(1).standard_normal((300, 3)))
-    opened = [
-        vt.which_opens(*(contact(ELASTIC, work=w, force=2e-3 * P) for w in (0.2 * x, 0.21 * y)))
-        for x, y, P in drawn
-    ]
-    share = [each.nominal for each in opened].count(0) / 300
-    base = with_work(stamp, 0.21)
-    chance = opening_chance(stamp, base, works=(0.1, 0.1), preload=0.1).value
-    assert share == pytest.approx(chance, abs=3 * sqrt(chance * (1 - chance) / 300))
-
-
 FEW = SMALL.replace('"1 um/s..100 um/s"', '"10 um/s"')
 
 
