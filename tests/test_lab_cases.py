@@ -205,13 +205,6 @@ def test_a_unit_that_the_file_states_wins():
         read_tests(path, **chosen, force_unit="N")
 
 
-def test_logarithms_are_undone():
-    found = read_dma(CASES / "log10_columns.csv")
-    assert_allclose(found.angular_frequency[[0, -1]], 2 * np.pi * np.array([10, 1e4]), rtol=1e-12)
-    assert found.storage[0] == pytest.approx(93.7e3, rel=1e-3)
-    assert found.loss[0] == pytest.approx(33.3e3, rel=1e-3)
-
-
 COMPLIANCE = 1 / (STORAGE + 1j * LOSS)
 FORMS = {
     "log": {"log ω": np.log10(OMEGA), "logG'/Pa": np.log10(STORAGE), "lg(G''/Pa)": np.log10(LOSS)},

@@ -26,7 +26,8 @@ PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
 def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(first, second):
     stamp = contact(ELASTIC, work=0.2)
     base = with_work(stamp, 0.21)
-    found = opening_chance(stamp, base, works=(first, second))
+    # the pull-off of an elastic sphere does not depend on its preload
+    found = opening_chance(stamp, base, works=(first, second), preload=0.1)
     # the gap is kept, so that only the range of the forces differs a little
     expected = NormalDist().cdf(log(1.05) / sqrt(first**2 + second**2))
     assert found.value == pytest.approx(expected, abs=0.015)

@@ -128,7 +128,8 @@ _vanished.terminal = True
 def test_simulation_and_crack_agree(solid, tabor, depth, rate, law, within):
     groups = Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate, traction=law)
     answer = vt.crack_contact(groups)
-    simulated = pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False))
+    result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
+    simulated = pull_off_force(result)
     assert answer.pull_off_force == pytest.approx(simulated, rel=within, abs=0)
     assert abs(answer.pull_off_force / simulated - 1) < answer.band
     # growth matters: the law at rest has another force

@@ -81,6 +81,16 @@ def test_a_start_by_force_exists_up_to_the_elastic_pull_off(make, size):
     assert hangs.depth[0] > pulled.depth  # on the side on which a load is borne
 
 
+def test_more_than_the_elastic_pull_off_force_is_no_start():
+    most = elastic_pull_off(0.1)
+    for groups in (
+        sphere(vt.AtForce(-1.002 * most), rate=1.0, tabor=0.1),
+        punch(vt.AtForce(-0.58)),
+    ):
+        with pytest.raises(ValueError, match="no relaxed contact"):
+            vt.solve(groups)
+
+
 # --- dead loads -------------------------------------------------------------------------------
 
 
