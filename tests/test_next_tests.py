@@ -25,7 +25,7 @@ RUBBER = Passport(
     material=SOLID,
     temperature=293.15,
     shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0),
-    allowed=tuple(replace(SOLID, tau0=1.5**n * 1e-2) for n in (-1, 1)),
+    allowed=tuple(replace(SOLID, tau0=1.5**n * 1e-2) for n in (-1, 0, 1)),
 )
 RADIUS, PRELOAD, NOISE = 5e-3, 1e-3, 0.02
 SPEEDS, WANTED = np.geomspace(1e-6, 1e-4, 3), Trial(3e-2)
