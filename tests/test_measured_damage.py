@@ -44,7 +44,7 @@ def assert_right(sweeps, whole):
         assert loss == pytest.approx(known[point][1], rel=1e-3)
 
 
-QUICK, LONG = 15, pytest.param(250, marks=pytest.mark.slow)
+QUICK, LONG = 15, pytest.param(120, marks=pytest.mark.slow)
 
 
 @every_text

@@ -59,7 +59,7 @@ def test_exact_data_give_back_the_shift(by):
 
 @pytest.mark.slow
 def test_the_stated_uncertainty_is_the_scatter_of_repeated_measurements():
-    noise, draws = 0.02, 20
+    noise, draws = 0.02, 12
     found = [
         shift_factors(
             measured(noise=noise, seed=seed, up=up),

@@ -83,7 +83,7 @@ def test_shifting_by_storage_alone_has_an_error_for_a_melt_and_reports_it():
     assert "Kramers-Kronig" in contradiction(curve)
 
 
-@pytest.mark.parametrize("draws", [3, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("draws", [3, pytest.param(20, marks=pytest.mark.slow)])
 def test_intervals_hold_the_true_shift(draws):
     tables = [curve_of_melt(seed).shifts for seed in range(draws)]
     off = np.array([table.log10_shift for table in tables]) - TRUE

@@ -16,10 +16,9 @@ from viscotack.app.cli import application
 from viscotack.app.operations import ask
 from viscotack.design import read_window
 from viscotack.design.window import aged, opening_chance
-from viscotack.model.materials.passport_file import read_passport
+from viscotack.model.materials import Passport, write_passport
+from viscotack.model.materials.shift import WLF
 from viscotack.model.traction import SaturatingAgeing
-
-PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
 
 
 @pytest.mark.parametrize("first, second", [(0.1, 0.0), (0.0, 0.1), (0.1, 0.2)])
@@ -43,7 +42,6 @@ FEW = SMALL.replace('"1 um/s..100 um/s"', '"10 um/s"')
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "pdms.toml").write_text(PASSPORT.read_text())
     return tmp_path
 
 
@@ -73,7 +71,11 @@ ELASTIC_STAMP = (
 
 @pytest.mark.slow
 def test_a_critical_speed_moves_by_the_shift_factor(folder):
-    text = WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "pdms.toml"')
+    solid = vt.StandardSolid(rubbery_modulus=2e6, glassy_modulus=20e6, tau0=1e-2, poisson_ratio=0.5)
+    shift = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
+    passport = Passport(name="rubber", material=solid, temperature=293.15, shift=shift)
+    write_passport(passport, folder / "rubber.toml")
+    text = WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "rubber.toml"')
     Path("warm.toml").write_text(
         text.replace('"1 um/s..100 um/s"', '["1 um/s", "10 mm/s"]').replace(
             'stiffness = "1 kN/m"\n', ""
@@ -81,7 +83,6 @@ def test_a_critical_speed_moves_by_the_shift_factor(folder):
     )
     answer = ask("window", file="warm.toml")
     cold, warm = (x["critical_speed_m_per_s"] for x in answer.record()["critical_speeds"])
-    passport = read_passport(PASSPORT)
     ratio = passport.shift_factor(273.15) / passport.shift_factor(288.15)
     assert warm / cold == pytest.approx(ratio, rel=0.02)
 
