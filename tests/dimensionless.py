@@ -1,8 +1,10 @@
-"""Solids of dimensionless problems, of rubbery modulus and time 1, and exponents of errors."""
+"""Dimensionless solids, of rubbery modulus and time 1, spheres and punches; exponents of errors."""
 
 import numpy as np
 
+from viscotack.model.geometry import FlatPunch, Layer
 from viscotack.model.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.model.problem import Groups
 
 
 def standard(modulus_ratio=0.1):
@@ -23,6 +25,16 @@ def power_law(modulus_ratio=0.1, exponent=0.6):
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = standard()
+
+
+def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, **more):
+    return Groups(tabor=tabor, material=material, start=start, rate=rate, moves=moves, **more)
+
+
+def punch(start, *moves, size=64.85, thickness=3.24, cohesion=0.05, material=SOLID, **more):
+    """Return the punch of the thesis on its sliding layer, with changes."""
+    of_plane = {"geometry": FlatPunch(size), "body": Layer(thickness), "cohesion": cohesion}
+    return sphere(start, *moves, tabor=None, material=material, **of_plane, **more)
 
 
 def slope(x, y):

@@ -47,9 +47,6 @@ def assert_the_sweep(found, rtol=1e-5):
     assert_allclose(found.loss, LOSS, rtol=rtol)
 
 
-# ---- temperatures ------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("name", "celsius"),
     [("sample_temperature", (0, 20, 40)), ("oven_temperature_close", (20, 25, 30))],
@@ -105,19 +102,6 @@ def tack_test(path, time=None, **more):
         for name, value in more.items()
     }
     return write(path, columns)
-
-
-# ---- samples -----------------------------------------------------------------------------------
-
-
-def test_samples_are_not_pooled_but_chosen():
-    path = CASES / "three_samples.csv"
-    with pytest.raises(InputError, match='"Sample".*--where'):
-        read(path)
-    for name, first in (("gel A", 93731.6), ("gel b", 140597), ("gel C", 65612.2)):
-        found = read_dma(path, where=f"Sample={name}")
-        assert len(found) == 7
-        assert found.storage[0] == first
 
 
 @pytest.mark.parametrize(
@@ -207,9 +191,6 @@ def test_samples_of_tack_tests_are_not_pooled_but_chosen(tmp_path):
     assert len(found) == 1260
 
 
-# ---- units -------------------------------------------------------------------------------------
-
-
 def test_a_unit_that_the_file_states_wins():
     path = CASES / "z_sensor_um.csv"
     chosen = {"position_column": "Z sensor [um]"}
@@ -222,16 +203,6 @@ def test_a_unit_that_the_file_states_wins():
         read_tests(path, **chosen, length_unit="mm")
     with pytest.raises(InputError, match="--force-unit"):
         read_tests(path, **chosen, force_unit="N")
-
-
-# ---- logarithms and other forms of the modulus -------------------------------------------------
-
-
-def test_logarithms_are_undone():
-    found = read_dma(CASES / "log10_columns.csv")
-    assert_allclose(found.angular_frequency[[0, -1]], 2 * np.pi * np.array([10, 1e4]), rtol=1e-12)
-    assert found.storage[0] == pytest.approx(93.7e3, rel=1e-3)
-    assert found.loss[0] == pytest.approx(33.3e3, rel=1e-3)
 
 
 COMPLIANCE = 1 / (STORAGE + 1j * LOSS)
@@ -284,9 +255,6 @@ def test_a_viscosity_or_a_compliance_is_no_modulus(tmp_path):
         columns = {"f [Hz]": HERTZ} | dict.fromkeys(names, STORAGE)
         with pytest.raises(InputError, match="G' "):
             read_dma(write(tmp_path / "a.csv", columns))
-
-
-# ---- RheoWin, clocks, gaps, digits -------------------------------------------------------------
 
 
 def test_clock_times_are_seconds(tmp_path):
@@ -356,17 +324,11 @@ def test_a_table_on_its_side_is_read(separator, tmp_path):
     assert_allclose(read_tests(path)[0].force, test.force)
 
 
-# ---- the zero of a tack test -------------------------------------------------------------------
-
-
 def test_a_straight_tilt_is_taken_off():
     (found,) = read_tests(CASES / "tilted_zero.csv")
     (cycle,) = evaluate(found).cycles
     assert cycle.pull_off_force.value == pytest.approx(5.01e-3, abs=0.01e-3)
     assert cycle.work_of_separation.value == pytest.approx(34.05e-9, abs=0.05e-9)
-
-
-# ---- maps of heights ---------------------------------------------------------------------------
 
 
 def test_the_header_of_gwyddion_is_used(tmp_path):

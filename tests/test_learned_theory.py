@@ -78,12 +78,8 @@ def test_it_is_silent_where_the_theory_is():
         assert not answered(out)[0]
 
 
-def test_its_band_is_measured_where_simulations_were_compared():
-    near = vt.predict(problem(tabor=30.0, rate=30.0, preload=100.0))
-    assert (near.band, near.confidence) == ("measured", 0.9)
-    far = vt.predict(problem(modulus_ratio=1e-3))
-    assert (far.band, far.confidence) == ("measured", 0.9)
-    # a cone was compared from modulus ratios of 0.03 on
+def test_a_cone_is_answered_where_simulations_were_compared():
+    # from modulus ratios of 0.03 on
     cone = replace(problem(tabor=30.0, rate=30.0, modulus_ratio=0.01), geometry=vt.Cone(1.0))
     with pytest.raises(vt.OutOfRange, match="modulus_ratio is 0.01"):
         vt.predict(cone)

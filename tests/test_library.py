@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from viscotack.app.operations import operation
 from viscotack.app.operations.parts.library import library
-from viscotack.app.operations.request import Caller
+from viscotack.app.operations.request import Caller, request_of
 from viscotack.model.materials.library import MATERIALS, passport_of, published
 
 DOCS = Path(__file__).parents[1] / "docs" / "materials.md"
@@ -71,7 +71,7 @@ def test_the_silicones_have_the_stiffness_of_their_tensile_tests(name):
 
 def test_a_published_name_is_a_material_in_every_place(tmp_path):
     solid = published("vhb-4910").material
-    asked = operation("theory greenwood").of(material="vhb-4910")
+    asked = request_of(operation("theory greenwood"), {"material": "vhb-4910"})
     assert asked.solid(Caller()) == solid.reduced()
     assert passport_of("vhb-4910") is published("vhb-4910")
     lens = (EXAMPLES / "from_toml" / "lens.toml").read_text(encoding="utf-8")

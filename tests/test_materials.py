@@ -5,14 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from viscotack.model.materials import (
-    Elastic,
-    FractionalZener,
-    Prony,
-    RelaxationPowerLaw,
-    RetardationPowerLaw,
-    StandardSolid,
-)
+import viscotack as vt
 from viscotack.model.materials.modes import compressed
 
 ELASTIC = dict(rubbery_modulus=1e6, poisson_ratio=0.5)
@@ -21,12 +14,12 @@ POWER_LAW = dict(STANDARD, exponent=0.6)
 FRACTIONAL = dict(STANDARD, order=0.6)
 PRONY = dict(ELASTIC, branches=[(4e6, 1.0), (5e6, 1e-3)])
 CASES = [
-    (Elastic, ELASTIC),
-    (StandardSolid, STANDARD),
-    (Prony, PRONY),
-    (RetardationPowerLaw, POWER_LAW),
-    (RelaxationPowerLaw, POWER_LAW),
-    (FractionalZener, FRACTIONAL),
+    (vt.Elastic, ELASTIC),
+    (vt.StandardSolid, STANDARD),
+    (vt.Prony, PRONY),
+    (vt.RetardationPowerLaw, POWER_LAW),
+    (vt.RelaxationPowerLaw, POWER_LAW),
+    (vt.FractionalZener, FRACTIONAL),
 ]
 every_class = pytest.mark.parametrize(
     ("kind", "numbers"), CASES, ids=[c.__name__ for c, _ in CASES]
@@ -41,9 +34,9 @@ def test_poisson_ratio_must_be_between_0_and_a_half(kind, numbers, wrong):
         kind(**(numbers | dict(poisson_ratio=wrong)))
 
 
-@pytest.mark.parametrize("kind", [StandardSolid, RetardationPowerLaw, RelaxationPowerLaw])
+@pytest.mark.parametrize("kind", [vt.StandardSolid, vt.RetardationPowerLaw, vt.RelaxationPowerLaw])
 def test_glassy_modulus_and_time_are_checked(kind):
-    numbers = STANDARD if kind is StandardSolid else POWER_LAW
+    numbers = STANDARD if kind is vt.StandardSolid else POWER_LAW
     with pytest.raises(
         ValueError, match="999999 Pa < 1e.06 Pa; check whether they are interchanged"
     ):
@@ -65,7 +58,7 @@ def test_glassy_modulus_and_time_are_checked(kind):
 )
 def test_branches_are_pairs_of_positive_numbers_with_different_times(wrong, sentence):
     with pytest.raises(ValueError, match=sentence):
-        Prony(**(ELASTIC | dict(branches=wrong)))
+        vt.Prony(**(ELASTIC | dict(branches=wrong)))
 
 
 @every_class

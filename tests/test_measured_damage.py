@@ -44,7 +44,7 @@ def assert_right(sweeps, whole):
         assert loss == pytest.approx(known[point][1], rel=1e-3)
 
 
-QUICK, LONG = 25, pytest.param(1500, marks=pytest.mark.slow)
+QUICK, LONG = 15, pytest.param(120, marks=pytest.mark.slow)
 
 
 @every_text
@@ -103,7 +103,7 @@ def test_a_removed_unit_gives_right_points_or_an_error(name, tmp_path):
     whole = read(path, TEXTS[name])
     lines, encoding = decoded(TEXTS[name])
     text = "\n".join(lines)
-    places = [m.span() for m in re.finditer(r"(MPa|Pa|Hz|rad/s|°C)(?![A-Za-z])", text)][:20]
+    places = [m.span() for m in re.finditer(r"(MPa|Pa|Hz|rad/s|°C)(?![A-Za-z])", text)][:8]
     read_as_before = 0
     for start, end in places:
         sweeps = read(path, (text[:start] + text[end:]).encode(encoding))

@@ -22,9 +22,6 @@ def assert_the_film(sweeps, rtol=1e-10):
     assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=rtol)
 
 
-# ---- headings ----------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("text", "quantity", "unit"),
     [
@@ -47,9 +44,6 @@ def test_a_unit_behind_the_name_is_read(text, quantity, unit):
 )  # fmt: skip
 def test_a_name_that_holds_another_is_another_quantity(text):
     assert recognise(text) is None
-
-
-# ---- layouts -----------------------------------------------------------------------------------
 
 
 def test_json_in_lists_is_read(file):
@@ -137,9 +131,6 @@ def test_intervals_with_the_same_headings_are_tables_of_their_own(file):
     assert odd.storage.tolist() == sweeps.storage.tolist()
 
 
-# ---- several files -----------------------------------------------------------------------------
-
-
 def halves():
     """Return the film's sweeps as one file each, without temperatures."""
     for i, celsius in enumerate(lab_files.CELSIUS):
@@ -175,9 +166,6 @@ def test_a_name_has_one_temperature(file):
     with pytest.raises(ValueError, match="'-25C' in the file name"):
         read_dma(file(text, "film-25C.csv"), temperature_in_name=True)
     assert read_dma(file(text, "a 293.15 K.csv"), temperature_in_name=True).temperature[0] == 293.15
-
-
-# ---- which test, and the true cause ------------------------------------------------------------
 
 
 def test_shifts_of_the_other_sign_are_refused(file):

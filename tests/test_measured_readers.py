@@ -23,9 +23,6 @@ def notes(read):
     return "; ".join(read.source.notes)
 
 
-# ---- every format ------------------------------------------------------------------------------
-
-
 def assert_the_invented_film(sweeps, kind="E"):
     assert sweeps.kind == kind
     assert_allclose(sweeps.temperature, lab_files.TEMPERATURE, rtol=1e-14)
@@ -63,9 +60,6 @@ def test_reptate_is_read_in_its_own_units(file, name, headings):
     assert_allclose(sweeps.angular_frequency, lab_files.OMEGA[8:])
 
 
-# ---- real files --------------------------------------------------------------------------------
-
-
 def test_the_published_sweeps_are_the_same_as_text_and_as_workbook():
     pytest.importorskip("xlrd")
     text = read_dma(DMA / "freq_user_raw.csv")
@@ -97,9 +91,6 @@ def test_the_published_master_curves_are_read():
     assert shifts.temperature[0] == pytest.approx(223.15, rel=1e-12)
     assert shifts.log10_shift[[0, 6, -1]].tolist() == [12.75, 0.0, -11.7]
     assert shifts.uncertainty is None
-
-
-# ---- units and words ---------------------------------------------------------------------------
 
 
 PER_SECOND = table("1, 3, 0.4, 20", units="1/s, MPa, MPa, C")
@@ -142,9 +133,6 @@ def test_moduli_whose_units_cannot_both_be_right_are_refused(file):
         read_dma(file(table("1, 3, 0.4, 20", units="Hz, MPa, Pa, C")))
 
 
-# ---- tension and shear -------------------------------------------------------------------------
-
-
 def test_shear_becomes_tension_with_a_poisson_ratio(file):
     shear = read_dma(file(lab_files.REPTATE, "film.osc"))
     tension = shear.in_tension(0.45)
@@ -154,9 +142,6 @@ def test_shear_becomes_tension_with_a_poisson_ratio(file):
     assert tension.in_tension(0.3) is tension
     with pytest.raises(ValueError, match="between 0 and 0.5"):
         shear.in_tension(0.6)
-
-
-# ---- numbers -----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("cell", ["abc", "1_000", "1.2.3", "inf", "٣"])
@@ -185,9 +170,6 @@ def test_a_number_that_contradicts_its_row_is_found(file, name, unit):
     path = file(table(f"1, 3, 0.4, {value}", f"2, 8.00, 0.40, {value}", names=names, units=units))
     with pytest.raises(ValueError, match=r"line 4: "):
         read_dma(path)
-
-
-# ---- rows, sweeps and damage -------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", ["trios_text", "rheocompass", "rheocompass_csv"])
@@ -250,9 +232,6 @@ def test_the_temperature_is_required_where_the_file_has_none(file):
         read_dma(path, temperature=-20)
     with pytest.raises(ValueError, match="the file states its temperatures"):
         read_dma(file(lab_files.TEXTS["csv"]), temperature=293.15)
-
-
-# ---- tests in time, and shift factors ----------------------------------------------------------
 
 
 def test_a_relaxation_test_is_read(file):

@@ -61,9 +61,6 @@ def call(*arguments):
     return done.exit_code, done.stdout, done.stderr
 
 
-# --- simulated, saved, loaded -----------------------------------------------------------------
-
-
 def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
     result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
     assert vt.pull_off_force(result) > 0
@@ -132,20 +129,6 @@ def test_a_theory_predicts_with_own_parts():
     )
     assert status == 0, err
     assert told == pytest.approx(json.loads(out)["pull_off_force"], rel=1e-5)
-
-
-# --- and they are right -----------------------------------------------------------------------
-
-
-def test_a_morse_law_of_short_range_pulls_like_jkr():
-    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    groups = vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, MORSE(1.0, 1.0, 3.0))
-    force = vt.pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False))
-    assert force == pytest.approx(1.0, abs=0.03)
-    assert force != pytest.approx(1.0, abs=0.001)
-
-
-# --- refusals ---------------------------------------------------------------------------------
 
 
 def test_an_incomplete_noun_is_refused_before_anything_is_solved():

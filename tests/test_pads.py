@@ -40,14 +40,6 @@ def alone(problem, stiffness=None):
     )
 
 
-@pytest.mark.parametrize("problem", [pad(), pad(RUBBER, gap=6e-7)], ids=["elastic", "rubber"])
-def test_one_pad_pulls_off_as_the_contact_of_its_tier(problem):
-    found = pulled(problem, [(0.0, 0.0)])
-    assert found.pull_off_force == pytest.approx(alone(problem), rel=1e-6)
-    assert found.load_sharing == pytest.approx(1, rel=1e-12)
-    assert found.method == "steady cracks"
-
-
 def test_one_pad_outside_the_theory_pulls_off_as_its_simulation():
     problem = pad(RUBBER, gap=3e-6)
     expected = vt.solve(problem, accuracy=0.02, estimate_error=False)
@@ -60,9 +52,12 @@ def test_one_pad_outside_the_theory_pulls_off_as_its_simulation():
 
 @pytest.mark.parametrize("problem", [pad(), pad(RUBBER, gap=6e-7)], ids=["elastic", "rubber"])
 def test_equal_pads_on_a_rigid_backing_carry_as_many_times_one_pad(problem):
-    found = pulled(problem)
-    assert found.pull_off_force == pytest.approx(12 * alone(problem), rel=1e-6)
-    assert found.largest_jump == 12
+    for places in (PLACES[:1], PLACES):
+        found = pulled(problem, places)
+        assert found.pull_off_force == pytest.approx(len(places) * alone(problem), rel=1e-6)
+        assert found.largest_jump == len(places)
+        assert found.load_sharing == pytest.approx(1, rel=1e-12)
+        assert found.method == "steady cracks"
 
 
 def test_on_a_soft_backing_the_weakest_pad_lets_go_first():
@@ -92,11 +87,10 @@ def jkr_of_depth(count=20_000, w=WORK):
     return depth, 4 * E * a**3 / (3 * R) - np.sqrt(8 * np.pi * w * E * a**3)
 
 
-@pytest.mark.parametrize("tilt, curvature", [(5e-4, 0.0), (3e-4, 0.02)])
-def test_tilted_and_curved_plates_pull_off_as_an_independent_sum_of_jkr_curves(tilt, curvature):
-    places = grid(3, 4, 5e-3)
-    found = pulled(places=places, tilt=tilt, curvature=curvature, tilt_direction=0.3)
-    x, y = np.array(places).T - np.array([[7.5e-3], [5e-3]])
+def test_tilted_and_curved_plates_pull_off_as_an_independent_sum_of_jkr_curves():
+    tilt, curvature = 3e-4, 0.02
+    found = pulled(tilt=tilt, curvature=curvature, tilt_direction=0.3)
+    x, y = np.array(PLACES).T - np.array([[7.5e-3], [5e-3]])
     rise = -np.tan(tilt) * (x * np.cos(0.3) + y * np.sin(0.3)) - curvature * (x**2 + y**2) / 2
     depth, force = jkr_of_depth()
 
@@ -104,7 +98,7 @@ def test_tilted_and_curved_plates_pull_off_as_an_independent_sum_of_jkr_curves(t
         d = z + rise
         return np.where(touched & (d >= depth[0]), np.interp(d, depth, force), 0.0).sum()
 
-    levels = np.linspace(3e-5, -3e-5, 60_000)
+    levels = np.linspace(3e-5, -3e-5, 20_000)
     first = next(z for z in levels if total(z, z + rise >= 0) < 12 * LOAD)
     touched = first + rise >= 0
     expected = -min(total(z, touched) for z in levels[levels < first])
@@ -185,12 +179,12 @@ def test_the_yield_is_the_count_of_arrays_that_are_pulled_directly():
         load=load,
         speed=1e-5,
         preload=4 * LOAD,
-        draws=60,
+        draws=30,
     )
-    direct = np.array([direct_pull_off(*scatter.drawn(4, i)) for i in range(60)])
+    direct = np.array([direct_pull_off(*scatter.drawn(4, i)) for i in range(30)])
     assert found.forces == pytest.approx(np.sort(direct), rel=2e-3)
     near = np.abs(direct / load - 1) < 2e-3
-    assert abs(found.share * 60 - np.count_nonzero(direct >= load)) <= np.count_nonzero(near)
+    assert abs(found.share * 30 - np.count_nonzero(direct >= load)) <= np.count_nonzero(near)
     assert 0.05 < found.share < 0.95
     assert found.interval[0] < found.share < found.interval[1]
 
@@ -203,7 +197,7 @@ def test_the_yield_of_one_pad_is_the_normal_distribution_of_its_work():
         load=0.95 * JKR,
         speed=1e-5,
         preload=LOAD,
-        draws=400,
+        draws=150,
     )
     expected = 0.5 * (1 + erf(0.5 / sqrt(2)))
     assert found.interval[0] < expected < found.interval[1]

@@ -6,31 +6,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.model.materials import (
-    Elastic,
-    Prony,
-    RelaxationPowerLaw,
-    RetardationPowerLaw,
-    StandardSolid,
-)
+import viscotack as vt
 from viscotack.model.materials.conversion import slowed
 from viscotack.model.materials.passport import Evidence, Origin, Passport, _moved
 from viscotack.model.materials.passport_file import passport_text, read_passport, write_passport
 from viscotack.model.materials.passport_uncertainty import allowed, shift_error
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.model.problem.case_file import passport_of, read_case
+from viscotack.model.problem.case_file import passport_of
 from viscotack.model.problem.tables import Reading
-from viscotack.prediction import predict
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {
-    "elastic": Elastic(rubbery_modulus=1e6 / 3, poisson_ratio=0.4),
-    "sls": StandardSolid(**LAW),
-    "prony": Prony(
+    "elastic": vt.Elastic(rubbery_modulus=1e6 / 3, poisson_ratio=0.4),
+    "sls": vt.StandardSolid(**LAW),
+    "prony": vt.Prony(
         rubbery_modulus=1e6 / 3, branches=[(1e7 / 7, 1e-3 / 3), (2e6, 7.0)], poisson_ratio=0.5
     ),
-    "power-law": RetardationPowerLaw(**LAW, exponent=0.7 / 3),
-    "relaxation-power-law": RelaxationPowerLaw(**LAW, exponent=0.7 / 3),
+    "power-law": vt.RetardationPowerLaw(**LAW, exponent=0.7 / 3),
+    "relaxation-power-law": vt.RelaxationPowerLaw(**LAW, exponent=0.7 / 3),
 }
 SHIFT = {
     "none": None,
@@ -126,7 +119,7 @@ def lens_with(passport, folder, **temperature):
 
 
 def uncertain():
-    material = RetardationPowerLaw(
+    material = vt.RetardationPowerLaw(
         rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.8, tau0=0.1, poisson_ratio=0.5
     )
     shift = TabulatedShift(293.15, (253.15, 273.15, 293.15), (3.0, 1.2, 0.0), (0.3, 0.15, 0.0))
@@ -137,13 +130,13 @@ def uncertain():
 
 def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     case = lens_with(uncertain(), tmp_path)
-    moved = read_case(case, temperature=273.15)
+    moved = vt.read_case(case, temperature=273.15)
     (tmp_path / "cold").mkdir()
     cold = lens_with(uncertain(), tmp_path / "cold", temperature="0 degC")
-    assert moved == read_case(cold)
+    assert moved == vt.read_case(cold)
     assert moved.material.tau0 == pytest.approx(0.1 * 10**1.2, rel=1e-12)
     with pytest.raises(ValueError, match="not extrapolated"):
-        read_case(case, temperature=333.15)
+        vt.read_case(case, temperature=333.15)
     tables = tomllib.loads(case.read_text())
     reading = Reading("the case", beside=case.parent.joinpath)
     passport, deviation = passport_of(tables, reading, 273.15)
@@ -153,27 +146,27 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
 
 def test_a_passport_is_scaled_to_another_rubbery_modulus(tmp_path):
     case = lens_with(uncertain(), tmp_path)
-    own = read_case(case).material
+    own = vt.read_case(case).material
     case.write_text(case.read_text().replace("[material]", '[material]\nrubbery_modulus = "3 MPa"'))
-    solid = read_case(case).material
+    solid = vt.read_case(case).material
     assert solid == replace(own, rubbery_modulus=3e6, glassy_modulus=3 * own.glassy_modulus)
     tables = tomllib.loads(case.read_text())
     scaled, _ = passport_of(tables, Reading("the case", beside=case.parent.joinpath))
     assert (scaled.name, scaled.material) == ("m, scaled to 3 MPa", solid)
     case.write_text(case.read_text().replace('"3 MPa"', '"-3 MPa"'))
     with pytest.raises(ValueError, match="rubbery_modulus must be positive"):
-        read_case(case)
+        vt.read_case(case)
 
 
 def test_uncertain_times_widen_a_prediction(tmp_path):
-    problem = read_case(lens_with(uncertain(), tmp_path), temperature=273.15)
-    plain, wide = predict(problem), predict(problem, shift_deviation=0.15)
+    problem = vt.read_case(lens_with(uncertain(), tmp_path), temperature=273.15)
+    plain, wide = vt.predict(problem), vt.predict(problem, shift_deviation=0.15)
     assert wide.pull_off_force == plain.pull_off_force
     assert wide.interval[0] < plain.interval[0] and wide.interval[1] > plain.interval[1]
     assert np.ptp(wide.work_interval) > np.ptp(plain.work_interval)
     # as far as slower material is stuck more firmly
     slower = replace(problem, material=slowed(problem.material, 10 ** (1.6449 * 0.15)))
-    up = np.log(predict(slower).pull_off_force / plain.pull_off_force)
+    up = np.log(vt.predict(slower).pull_off_force / plain.pull_off_force)
     own = np.log(plain.interval[1] / plain.pull_off_force)
     assert np.log(wide.interval[1] / wide.pull_off_force) == pytest.approx(
         np.hypot(up, own), rel=1e-3

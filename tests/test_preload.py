@@ -6,37 +6,28 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from viscotack.model.geometry import PowerLawProfile
-from viscotack.model.materials import (
-    Elastic,
-    Prony,
-    RelaxationPowerLaw,
-    StandardSolid,
-)
-from viscotack.model.problem import Groups
-from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Dwell
-from viscotack.result.observables import pull_off, pull_off_force, work_to_pull_off
-from viscotack.simulate import DEFAULT_ACCURACY, Settings, preload, solve
+import viscotack as vt
+from viscotack.simulate import DEFAULT_ACCURACY, Settings, preload
 from viscotack.simulate.solver import contact_of
 
 pytestmark = pytest.mark.march
 
 COMMON = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
-ELASTIC = Elastic(**COMMON)
-SOLID = StandardSolid(**COMMON, glassy_modulus=10.0, tau0=1.0)
-ENDLESS = RelaxationPowerLaw(**COMMON, glassy_modulus=10.0, exponent=0.2, tau0=1.0)
+ELASTIC = vt.Elastic(**COMMON)
+SOLID = vt.StandardSolid(**COMMON, glassy_modulus=10.0, tau0=1.0)
+ENDLESS = vt.RelaxationPowerLaw(**COMMON, glassy_modulus=10.0, exponent=0.2, tau0=1.0)
 
 
 def case(start=1e6, tabor=1.0, rate=1.0, material=SOLID, **more):
-    start = AtDepth(start) if isinstance(start, int | float) else start
-    return Groups(tabor=tabor, material=material, start=start, rate=rate, **more)
+    start = vt.AtDepth(start) if isinstance(start, int | float) else start
+    return vt.Groups(tabor=tabor, material=material, start=start, rate=rate, **more)
 
 
 def pulled(problem, **options):
-    return solve(problem, **({"accuracy": 0.02, "until": "pull-off"} | options))
+    return vt.solve(problem, **({"accuracy": 0.02, "until": "pull-off"} | options))
 
 
-@pytest.mark.parametrize("start", [AtForce(1e4), AtRadius(300.0)], ids=["force", "radius"])
+@pytest.mark.parametrize("start", [vt.AtForce(1e4), vt.AtRadius(300.0)], ids=["force", "radius"])
 def test_deep_starts_by_force_and_radius_begin_where_one_by_depth_does(start):
     result = pulled(case(start))
     assert result.shallow_start.asked == pytest.approx(contact_of(case(start)).deepest(start))
@@ -50,7 +41,7 @@ def test_deep_starts_by_force_and_radius_begin_where_one_by_depth_does(start):
         case(900.0, material=ELASTIC),
         case(1500.0, rate=1e6),
         case(2000.0, rate=0.01, material=ENDLESS),
-        case(1100.0, material=ELASTIC, moves=(Dwell(1.0, hold="drive"),)),
+        case(1100.0, material=ELASTIC, moves=(vt.Dwell(1.0, hold="drive"),)),
     ],
     ids=["not deep", "over before it creeps", "endless memory", "with moves"],
 )
@@ -69,7 +60,7 @@ def test_a_depth_that_matters_and_cannot_be_marched_is_refused():
 
 def test_time_that_is_left_to_creep_decides_where_two_depths_agree():
     """Between two processes far apart in time nothing changes, and the second still comes."""
-    twice = Prony(**COMMON, branches=((9.0, 1e-6), (9.0, 1e6)))
+    twice = vt.Prony(**COMMON, branches=((9.0, 1e-6), (9.0, 1e6)))
     begun = preload.shallower(
         case(6e3, material=twice),
         contact_of(case()),
@@ -88,7 +79,7 @@ def test_the_depth_grows_by_fours_until_the_end_no_longer_changes():
 
     settings = Settings.for_accuracy(DEFAULT_ACCURACY)
     begun = preload.shallower(case(1e5, rate=100.0), contact_of(case()), settings, light)
-    depths, forces = [r.depth[0] for r in marched], [pull_off_force(r) for r in marched]
+    depths, forces = [r.depth[0] for r in marched], [vt.pull_off_force(r) for r in marched]
     assert depths == [10.0 * 4**i for i in range(len(marched))]
     assert begun.light is marched[-1] and begun.start.depth == depths[-1]
     assert abs(forces[1] / forces[0] - 1) > 0.1 > 0.01 > abs(forces[-1] / forces[-2] - 1)
@@ -112,16 +103,16 @@ def test_what_is_left_of_the_creep_bounds_what_the_depth_still_does():
 
 def test_a_march_begins_pressed_as_hard_as_the_contact_then_pulls():
     """A cone pulls hard: from where a sphere may begin, a seventh of its work would be missing."""
-    cone = case(2000.0, tabor=3.24, material=ELASTIC, geometry=PowerLawProfile(1.0, 1.0))
-    result = pulled(cone)
-    assert result.force[0] >= pull_off_force(result)
-    assert work_to_pull_off(result) == pytest.approx(41.8, rel=0.02)  # converged: 41.80
+    cone = case(2000.0, tabor=3.24, material=ELASTIC, geometry=vt.PowerLawProfile(1.0, 1.0))
+    result = pulled(cone, estimate_error=False)
+    assert result.force[0] >= vt.pull_off_force(result)
+    assert vt.work_to_pull_off(result) == pytest.approx(41.8, rel=0.02)  # converged: 41.80
 
 
 def test_a_crack_behind_a_soft_spring_comes_up_to_its_speed():
     """From 21 h0 the work would be 1 % short, although 1e-7 of the creep is left."""
     result = pulled(case(1100.0, tabor=3.24, rate=10.0, stiffness=0.05), accuracy=5e-3)
-    assert 1 - SOLID.creep(pull_off(result).time) < 1e-6
+    assert 1 - SOLID.creep(vt.pull_off(result).time) < 1e-6
     assert result.shallow_start.depth > 50
     # from 84.8 and from 339 h0 at an accuracy of 1e-3
-    assert work_to_pull_off(result) == pytest.approx(38.257, rel=result.error_estimate["work"])
+    assert vt.work_to_pull_off(result) == pytest.approx(38.257, rel=result.error_estimate["work"])

@@ -39,9 +39,6 @@ def problem(profile=CONE, start=START, **others):
     return Problem(SOLID, LAW, profile, Retraction(start=start, **parts))
 
 
-# --- shapes ---------------------------------------------------------------------------------
-
-
 def test_gaps_follow_their_powers():
     r = np.array([0.0, 1e-4, 2e-4])
     assert Cone(0.1).gap(r) == pytest.approx(0.1 * r, rel=1e-15)
@@ -54,9 +51,6 @@ def test_gaps_follow_their_powers():
 def test_an_impossible_exponent_is_refused(exponent):
     with pytest.raises(ValueError, match="exponent"):
         PowerLawProfile(1.0, exponent)
-
-
-# --- groups and scales ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("start", [AtForce(1e-3), AtDepth(2e-6), AtRadius(2e-4), Apart(5e-6)])
@@ -101,9 +95,6 @@ def test_groups_with_their_scales_are_the_problem_again(profile, start):
         poisson_ratio=0.5,
     )
     assert numbers(new) == pytest.approx(numbers(old), rel=1e-11)
-
-
-# --- refusals -------------------------------------------------------------------------------
 
 
 def test_a_tip_that_is_steep_where_the_forces_end_is_refused():
@@ -158,9 +149,6 @@ def test_a_contact_beyond_small_strain_is_refused():
     with pytest.raises(ValueError, match="exceeds small strain"):
         problem(PowerLawProfile(A, 2), AtDepth(1e-6), moves=(Approach(1e-6, AtForce(1.0)),))
     assert problem(PowerLawProfile(A, 2), AtRadius(49e-6)).geometry.exponent == 2
-
-
-# --- records and results --------------------------------------------------------------------
 
 
 def test_advice_on_a_cone_is_that_of_the_cone():

@@ -1,7 +1,6 @@
 """Profiles of any form: tables of heights, waves, worn tips, cups; several edges."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,9 +8,8 @@ import pytest
 from scipy.special import struve
 
 import viscotack as vt
-from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from stated import case_text
-from viscotack.files.toml import read_toml, toml_value
+from viscotack.files.toml import toml_value
 from viscotack.model.traction import LennardJones
 from viscotack.simulate.contacts.shape import ShapeContact
 from viscotack.simulate.settings import Settings
@@ -23,6 +21,7 @@ RELAXING = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, 
 RADII = np.linspace(0.0, 6.0, 241)
 WAVY = vt.WavySphere(1.0, 0.06, 0.5)
 SOLID: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+ROUGHLY: Any = {"accuracy": 1e-2, "estimate_error": False}
 
 
 def reduced(height):
@@ -37,9 +36,6 @@ def worn(r):
 
 def cup(r):
     return r * r / 2 + 1.5 * np.exp(-r * r)
-
-
-# --- the shape ------------------------------------------------------------------------------------
 
 
 def test_a_paraboloid_by_its_heights_is_one_everywhere():
@@ -72,27 +68,21 @@ def test_depth_under_waves_is_that_of_struve():
     assert indenter.bare_depth(a, shape=WAVY) == pytest.approx(exact, rel=1e-12)
 
 
-# --- the contact ----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("solid", "rate"), [(ELASTIC, 1.0), (RELAXING, 3.0)])
-def test_a_sphere_by_its_heights_pulls_as_the_sphere_does(solid, rate):
-    groups = vt.Groups(tabor=2.0, material=solid, start=vt.AtDepth(6.0), rate=rate)
-    sphere = vt.solve(groups, until="pull-off", accuracy=1e-2)
-    table = vt.solve(replace(groups, geometry=reduced(lambda r: r * r / 2)), accuracy=1e-2)
-    assert table.error_estimate is not None
-    error = table.error_estimate["force"]
-    assert table.pull_off_force == pytest.approx(sphere.pull_off_force, rel=error)
-    assert table.pull_off_force == pytest.approx(sphere.pull_off_force, rel=1e-3)
+def test_a_sphere_by_its_heights_pulls_as_the_sphere_does():
+    sphere = vt.Groups(tabor=2.0, material=RELAXING, start=vt.AtDepth(6.0), rate=3.0)
+    table = replace(sphere, geometry=reduced(lambda r: r * r / 2))
+    forces = [vt.solve(one, until="pull-off", **ROUGHLY).pull_off_force for one in (sphere, table)]
+    assert forces[1] == pytest.approx(forces[0], rel=1e-3)
 
 
 def test_a_start_has_the_largest_of_several_radii():
     contact = ShapeContact(4.0, LennardJones(1.0, 1.0), WAVY)
-    a = np.linspace(0.05, 4.0, 40_000)
+    a = np.linspace(0.05, 4.0, 4000)
     depth = 4.0 * np.asarray(indenter.depth(a, shape=WAVY, **SOLID))
     for wanted in (-4.0, 0.0, 5.0):
-        found = contact.jkr_radius(wanted)
-        assert found == pytest.approx(a[depth < wanted][-1], abs=2e-4)
+        last = np.flatnonzero(depth < wanted)[-1]
+        crossing = np.interp(wanted, depth[last : last + 2], a[last : last + 2])
+        assert contact.jkr_radius(wanted) == pytest.approx(crossing, abs=1e-5)
     force = np.asarray(indenter.force(a, shape=WAVY, **SOLID))
     least = contact.jkr_radius_at_force(-1e9)
     assert indenter.force(least, shape=WAVY, **SOLID) == pytest.approx(force.min(), rel=1e-3)
@@ -102,7 +92,7 @@ def test_a_start_has_the_largest_of_several_radii():
 def test_energies_of_any_profile_are_accounted_for(height):
     shape = reduced(height)
     groups = vt.Groups(tabor=2.0, material=ELASTIC, start=vt.AtDepth(6.0), rate=1.0, geometry=shape)
-    result = vt.solve(groups, accuracy=1e-2)
+    result = vt.solve(groups, **ROUGHLY)
     assert result.energy_residual is not None and result.energy_residual < 1e-3
     a = np.linspace(0.05, 5, 2000)
     most = -np.min(indenter.force(a, shape=shape, **SOLID)) / (1.5 * np.pi)
@@ -120,7 +110,7 @@ def test_a_contact_beyond_the_last_row_is_refused():
         groups, start=vt.Apart(5.0), moves=(vt.Approach(1.0, vt.AtDepth(8.0)),), rate=None
     )
     with pytest.raises(vt.SimulationError, match="profile is known to"):
-        vt.solve(apart, accuracy=1e-2)
+        vt.solve(apart, **ROUGHLY)
 
 
 def test_nodes_of_a_tip_grow_slowly_away_from_its_kinks():
@@ -133,9 +123,6 @@ def test_nodes_of_a_tip_grow_slowly_away_from_its_kinks():
     assert contact.relaxed(groups.start, settings).edge > 3.0
     panels = np.diff(contact.grading(settings, 49.3).own)
     assert np.max(np.abs(np.diff(np.log(panels)))) < np.log(1.35)
-
-
-# --- the ways in ----------------------------------------------------------------------------------
 
 
 def case_of(table, keys):
@@ -160,9 +147,6 @@ def test_a_case_file_names_the_table(tmp_path, table):
     assert np.array(typed.points) == pytest.approx(np.array(shape.points), rel=1e-9, abs=1e-18)
 
 
-# --- several edges --------------------------------------------------------------------------------
-
-
 def ring(r):
     return r * r / 2 + 8 * np.exp(-r * r)
 
@@ -177,7 +161,7 @@ def ring_result():
         rate=1.0,
         geometry=reduced(ring),
     )
-    return vt.solve(groups, accuracy=1e-2)
+    return vt.solve(groups, **ROUGHLY)
 
 
 def test_both_edges_of_a_ring_are_reported(ring_result):
@@ -209,13 +193,11 @@ def test_parts_of_a_contact_that_comes_together_are_counted():
         rate=None,
         geometry=reduced(groove),
     )
-    result = vt.solve(groups, accuracy=1e-2)
+    result = vt.solve(groups, **ROUGHLY)
     assert vt.summary(result)["most_rings"] == 2
     assert result.rings is not None and result.rings[-1] == 1
     assert result.energy_residual is not None and result.energy_residual < 5e-3
 
-
-# --- every door -----------------------------------------------------------------------------------
 
 ROWS = [[f"{r} um", f"{max(r * r - 6400, 0) / 10:.1f} nm"] for r in range(0, 401, 100)]
 TABLES = {
@@ -226,23 +208,11 @@ TABLES = {
 
 
 @pytest.mark.parametrize("word", TABLES)
-def test_every_door_gives_the_same_answer(word, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_other_shapes_are_advised_to_be_simulated(word, tmp_path):
     keys = "\n".join(f"{key} = {toml_value(value)}" for key, value in TABLES[word].items())
-    Path("case.toml").write_text(case_of(word, keys))
-    question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.02})
-    found = by_python(question)
-    record: Any = found.record
-    assert record["pull_off_force"] > 0 and (word == "disc" or record["most_rings"] == 1)
-    http = Http()
-    try:
-        assert found == by_command(question) == by_study(question) == by_http(question, http)
-        tables = Question("simulate", question.given | {"problem": read_toml(Path("case.toml"))})
-        assert by_http(tables, http).record == found.record
-    finally:
-        http.close()
-    assert (
-        f"the shape is {word}" in by_python(Question("predict", {"problem": "case.toml"})).refused
-    )
-    advice: Any = by_python(Question("advise", {"problem": "case.toml"})).record
-    assert advice["use"] == "simulation" and advice["slow_force"] <= advice["fast_force"]
+    path = tmp_path / "case.toml"
+    path.write_text(case_of(word, keys))
+    case = vt.read_case(path)
+    with pytest.raises(vt.OutOfRange, match=f"the shape is {word}"):
+        vt.predict(case)
+    assert vt.advise(case).use == "simulation"

@@ -1,33 +1,27 @@
 """Relations between answers that need no reference value, on random problems.
 
-Each relates an answer to one that follows from it: units, times, arms, machines, starts and front
-ends change nothing; energies balance; limits and tiers bound each other. Hypothesis draws the same
-few problems in every run, and ten times as many in those marked slow.
+Each relates an answer to one that follows from it: units, rest and what comes after change nothing;
+energies balance; limits and the surrogate bound a force. Hypothesis draws the same
+few problems in every run, and four times as many in those marked slow.
 """
 
-import contextlib
-import io
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack as vt
-from viscotack.__main__ import main
-from viscotack.model.materials.conversion import slowed
 
 ACCURACY = 0.01
-TIMES = np.geomspace(1e-6, 1e6, 121)
 
 
 def related(few, **drawn):
     """Turn a check of random arguments into a test of a few examples, and of many if slow."""
 
     def decorate(check):
-        @pytest.mark.parametrize("count", [few, pytest.param(10 * few, marks=pytest.mark.slow)])
+        @pytest.mark.parametrize("count", [few, pytest.param(4 * few, marks=pytest.mark.slow)])
         def test(count):
             settings(max_examples=count)(given(**drawn)(check))()
 
@@ -60,8 +54,7 @@ def series(draw):
 
 @st.composite
 def power_laws(draw):
-    kind = draw(st.sampled_from([vt.RetardationPowerLaw, vt.RelaxationPowerLaw]))
-    return kind(
+    return vt.RetardationPowerLaw(
         rubbery_modulus=1.0,
         glassy_modulus=draw(decades(2, 100)),
         tau0=1.0,
@@ -71,7 +64,6 @@ def power_laws(draw):
 
 
 RELAXING = st.one_of(standard_solids(), series())
-SOLIDS = st.one_of(RELAXING, power_laws())
 ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 LAWS = st.one_of(
     st.just(vt.LennardJones(1.0, 1.0)),
@@ -109,80 +101,6 @@ def agree(one, other, tolerance):
     assert other == pytest.approx(one, rel=tolerance, abs=tolerance)
 
 
-# ---- solids and laws ---------------------------------------------------------------------------
-
-
-@related(20, material=SOLIDS, tolerance=decades(1e-5, 1e-2))
-def test_a_solid_is_passive_and_its_modes_are_as_close_as_stated(material, tolerance):
-    E, C = material.relaxation(TIMES), material.creep(TIMES)
-    modulus, compliance = material.complex_modulus(TIMES), material.complex_compliance(TIMES)
-    assert np.all(np.diff(E) <= 1e-9 * E[1:]) and np.all(np.diff(C) >= -1e-9 * C[1:])
-    assert np.all(E * C <= 1 + 1e-9)
-    assert np.all(E >= 1 - 1e-9) and np.all(E <= material.glassy_modulus * (1 + 1e-9))
-    assert np.all(np.diff(modulus.real) >= -1e-9 * modulus.real[1:])
-    assert np.all(modulus.imag >= -1e-9 * np.abs(modulus))
-    assert modulus * compliance == pytest.approx(np.ones(TIMES.size), rel=1e-8)
-    allowed = tolerance * material.modulus_ratio
-    modes = material.retardation_modes(shortest=1e-3, longest=1e3, tolerance=allowed)
-    inside = np.geomspace(1e-3, 1e3, 300)
-    missed = np.max(np.abs(modes.creep(inside) - material.creep(inside)))
-    assert missed <= modes.error * 1.01 + 1e-12 and modes.error <= allowed * (1 + 1e-9)
-    assert min(modes.weights, default=0.0) >= 0
-    assert modes.instantaneous + sum(modes.weights) == pytest.approx(1, abs=1e-9)
-
-
-def split(material, share):
-    """Return the series with its slowest arm in two; a series has no two equal times."""
-    (E, t), *rest = material.branches
-    return replace(material, branches=((E * share, t), (E * (1 - share), t * (1 + 1e-7)), *rest))
-
-
-def one_arm(solid):
-    arm = solid.glassy_modulus - solid.rubbery_modulus
-    return vt.Prony(
-        rubbery_modulus=1.0,
-        branches=((arm, solid.tau0 * solid.modulus_ratio),),
-        poisson_ratio=0.0,
-    )
-
-
-@related(15, material=series(), solid=standard_solids(), share=st.floats(0.1, 0.9))
-def test_split_and_lost_arms_and_a_single_arm_are_the_same_solid(material, solid, share):
-    lost = replace(material, branches=((1e-13, 0.5), *material.branches))
-    pairs = [(material, split(material, share)), (material, lost), (solid, one_arm(solid))]
-    for one, other in pairs:
-        for name in ("relaxation", "creep", "complex_modulus"):
-            found, known = (getattr(each, name)(TIMES) for each in (other, one))
-            assert np.max(np.abs(found / known - 1)) < 1e-6
-
-
-@related(15, material=SOLIDS, factor=decades(1e-3, 1e3))
-def test_a_slowed_solid_does_the_same_later(material, factor):
-    slow = slowed(material, factor)
-    assert slow.relaxation(TIMES * factor) == pytest.approx(material.relaxation(TIMES), rel=1e-9)
-    assert slow.creep(TIMES * factor) == pytest.approx(material.creep(TIMES), rel=1e-9)
-
-
-@related(15, law=LAWS)
-def test_traction_and_stiffness_are_slopes_of_the_energy(law):
-    gap, step = np.linspace(0.8, 8.0, 400), 1e-6
-
-    def slope(function):
-        return (function(gap + step) - function(gap - step)) / (2 * step)
-
-    close = {"rel": 1e-3, "abs": 1e-4 * law.strength}
-    assert slope(law.energy) == pytest.approx(law.traction(gap), **close)
-    assert slope(law.traction) == pytest.approx(law.stiffness(gap), rel=1e-2, abs=1e-3)
-    assert -slope(law.energy_beyond) == pytest.approx(law.energy(gap), **close)
-    assert float(law.energy(1.0)) == pytest.approx(-law.work_of_adhesion, rel=1e-9)
-    assert np.max(law.traction(np.linspace(0.9, 8, 20_001))) == pytest.approx(
-        law.strength, rel=1e-4
-    )
-
-
-# ---- one problem stated in two ways ------------------------------------------------------------
-
-
 @related(
     3, case=contacts(), modulus=decades(1e4, 1e9), time=decades(1e-3, 1e3), gap=decades(1e-9, 1e-7)
 )
@@ -207,20 +125,6 @@ def test_units_scale_out(case, modulus, time, gap):
     )
 
 
-@related(3, case=contacts())
-def test_the_square_profile_is_the_sphere_and_a_stiff_spring_a_rigid_machine(case):
-    known = pulled(case)
-    agree(known, pulled(replace(case, geometry=vt.PowerLawProfile(0.5, 2.0))), ACCURACY)
-    agree(known, pulled(replace(case, stiffness=1e9)), ACCURACY)
-
-
-@related(3, case=contacts())
-def test_a_start_by_depth_or_force_is_the_same_start(case):
-    force = float(solved(case, until="pull-off").force[0])
-    assume(force > 0.05)
-    agree(pulled(case), pulled(replace(case, start=vt.AtForce(force))), ACCURACY)
-
-
 @related(3, case=contacts(), duration=decades(0.1, 100), share=st.floats(0.2, 0.8))
 def test_rest_and_a_retraction_in_two_moves_change_nothing(case, duration, share):
     known, depth = pulled(case), case.start.depth
@@ -240,9 +144,6 @@ def test_the_pull_off_does_not_depend_on_what_comes_after(case):
     whole = [vt.pull_off_force(result), vt.work_to_pull_off(result), vt.depth_at_pull_off(result)]
     agree(pulled(case), whole, 1e-6)
     assert whole[0] == pytest.approx(-np.min(result.force), rel=2 * ACCURACY)
-
-
-# ---- energies, bounds, tiers, front ends -------------------------------------------------------
 
 
 @related(4, case=contacts(), stiffness=st.one_of(st.none(), decades(0.1, 10)))
@@ -282,31 +183,10 @@ def test_a_loop_of_a_viscoelastic_solid_takes_work(case, depth):
     assert cycle.hysteresis >= left[-1] - left[0] - 5 * ACCURACY * gross
 
 
-@related(
-    3, case=contacts(material=power_laws().filter(lambda m: isinstance(m, vt.RetardationPowerLaw)))
-)
+@related(3, case=contacts(material=power_laws()))
 def test_the_surrogate_holds_the_simulation(case):
     case = replace(case, traction=vt.LennardJones(1.0, 1.0))
     said = vt.predict(case, budget=0.1)
     low, high = (3 * (end - said.pull_off_force) for end in said.interval)
     off = pulled(case)[0] - said.pull_off_force
     assert low - ACCURACY * said.pull_off_force <= off <= high + ACCURACY * said.pull_off_force
-
-
-@related(
-    3,
-    solid=standard_solids(),
-    tabor=decades(0.1, 1.5),
-    depth=decades(0.5, 5),
-    rate=decades(0.1, 100),
-)
-def test_the_command_line_answers_as_python_does(solid, tabor, depth, rate):
-    k = round(solid.modulus_ratio, 4)
-    words = f"simulate sphere --tabor {tabor} --material sls --modulus-ratio {k} --preload {depth}"
-    printed = io.StringIO()
-    with contextlib.redirect_stdout(printed), contextlib.suppress(SystemExit):
-        main([*words.split(), "--rate", str(rate), "--accuracy", "0.01", "--json"])
-    solid = replace(solid, glassy_modulus=1 / k)
-    case = vt.Groups(tabor=tabor, material=solid, start=vt.AtDepth(depth), rate=rate)
-    known = vt.pull_off_force(vt.solve(case, accuracy=0.01))
-    assert json.loads(printed.getvalue())["pull_off_force"] == pytest.approx(known, rel=1e-9)

@@ -1,8 +1,6 @@
 import subprocess
 import sys
 
-import pytest
-
 import viscotack
 
 HEAVY = ("numpy", "scipy", "pint", "matplotlib", "rich", "typer")
@@ -24,9 +22,3 @@ def test_simulating_needs_no_library_of_the_command_line():
     names = [name for name in viscotack.__all__ if name != "__version__"]
     code = f"import sys, viscotack; [getattr(viscotack, n) for n in {names}]; "
     assert run(code + f"print([m for m in {late} if m in sys.modules])") == "[]"
-
-
-@pytest.mark.parametrize("name", viscotack.__all__)
-def test_every_public_name_exists(name):
-    assert getattr(viscotack, name) is not None
-    assert name in dir(viscotack)

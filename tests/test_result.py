@@ -3,16 +3,9 @@ import csv
 import numpy as np
 import pytest
 
+import viscotack as vt
 from synthetic import SI, energies, jkr_crack_speed, jkr_detachment, jkr_result
-from viscotack.result import (
-    Event,
-    ShallowStart,
-    columns,
-    load,
-    receding_speed,
-    save,
-    write_csv,
-)
+from viscotack.result import ShallowStart, receding_speed
 
 
 def full(**changes):
@@ -24,7 +17,7 @@ def full(**changes):
         error_estimate={"force": 1e-3, "work": 5e-3},
         versions={"viscotack": "0.0.9", "numpy": "1.26.0", "scipy": "1.12.0"},
         shallow_start=ShallowStart(1e6, 85.0, force=1e-4, work=5e-4, shift=0.01),
-        events=(Event("jump out of contact", 1.0, -2.0, -0.8, 0.1),),
+        events=(vt.Event("jump out of contact", 1.0, -2.0, -0.8, 0.1),),
         fields={
             "time": np.linspace(0, 1, 3),
             "radius": np.ones((3, n)),
@@ -41,8 +34,8 @@ def full(**changes):
     ids=["full", "SI", "bare", "jump"],
 )
 def test_a_saved_result_comes_back_whole(result, tmp_path):
-    save(result, tmp_path / "run.npz")
-    back = load(tmp_path / "run.npz")
+    vt.save(result, tmp_path / "run.npz")
+    back = vt.load(tmp_path / "run.npz")
     for name in ("time", "depth", "force", "contact_radius", "edge_speed"):
         np.testing.assert_array_equal(getattr(back, name), getattr(result, name))
     for name in ("energy", "fields"):
@@ -51,16 +44,8 @@ def test_a_saved_result_comes_back_whole(result, tmp_path):
         old, new = (vars(x) if name == "energy" and x is not None else x for x in (old, new))
         for key in old or {}:
             np.testing.assert_array_equal(new[key], old[key])
-    for name in (
-        "problem",
-        "status",
-        "events",
-        "statistics",
-        "error_estimate",
-        "energy_residual",
-        "shallow_start",
-        "versions",
-    ):
+    kept = "problem status events statistics error_estimate energy_residual shallow_start versions"
+    for name in kept.split():
         assert getattr(back, name) == getattr(result, name)
 
 
@@ -77,15 +62,15 @@ def other_npz(path):
 @pytest.mark.parametrize("damage", [flip, other_npz])
 def test_a_damaged_or_foreign_file_is_named_as_such(damage, tmp_path):
     path = tmp_path / "run.npz"
-    save(full(), path)
+    vt.save(full(), path)
     damage(path)
     with pytest.raises(ValueError, match=r"run\.npz is not a readable result of viscotack"):
-        load(path)
+        vt.load(path)
 
 
 def test_a_csv_has_si_columns_with_units_for_a_problem_in_si(tmp_path):
     result = jkr_result(problem=SI)
-    write_csv(result, tmp_path / "run.csv")
+    vt.write_csv(result, tmp_path / "run.csv")
     with open(tmp_path / "run.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert list(rows[0]) == [
@@ -107,12 +92,12 @@ def test_a_csv_has_si_columns_with_units_for_a_problem_in_si(tmp_path):
 
 def test_a_csv_of_groups_is_dimensionless_and_exact(tmp_path):
     result = jkr_detachment()
-    write_csv(result, tmp_path / "run.csv")
+    vt.write_csv(result, tmp_path / "run.csv")
     data = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
     assert data.dtype.names == ("time", "depth", "force", "contact_radius", "edge_speed")
     np.testing.assert_array_equal(data["force"], result.force)
     np.testing.assert_array_equal(data["contact_radius"], result.contact_radius)
-    assert list(columns(result)) == list(data.dtype.names)
+    assert list(vt.columns(result)) == list(data.dtype.names)
 
 
 def test_receding_speed_is_second_order():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from test_rough_file import BUMPS, MAP, SMALL
-from viscotack.campaign import CaseSettings, Store, measure, read_plan, run
+from viscotack.campaign import CaseSettings, measure, read_plan
 from viscotack.errors import InputError
 from viscotack.simulate.rough import pull, read_rough, read_rough_case
 
@@ -54,11 +54,3 @@ def test_a_map_that_has_changed_since_is_refused(folder):
     np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
     with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):
         measure(case, CaseSettings())
-
-
-@pytest.mark.slow
-def test_a_campaign_of_rough_surfaces_runs(folder):
-    assert run(read_plan("plan.toml"), "out").done == 4
-    forces = np.array([row["pull_off_force_N"] for row in Store("out").results()])
-    # elastic: the speed of two of the four changes nothing, to the tolerance of an equilibrium
-    assert len(np.unique(forces.round(9))) == 2

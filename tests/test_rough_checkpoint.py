@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,8 +25,11 @@ def told(share):
     if share > float(sys.argv[2]):
         sys.stdin.read()
 
-pull(problem(), maps=6, checkpoint=sys.argv[1], every=0.0, progress=told)
+pull(problem(), accuracy=0.02, maps=6, checkpoint=sys.argv[1], every=0.0, progress=told)
 """
+
+
+HOW: Any = {"accuracy": 0.02, "maps": 6}
 
 
 def problem():
@@ -51,7 +55,7 @@ def problem():
 @pytest.fixture(scope="module")
 def whole():
     """Return the uninterrupted answer."""
-    return pull(problem(), maps=6)
+    return pull(problem(), **HOW)
 
 
 def assert_same(found, whole):
@@ -84,9 +88,9 @@ def test_a_killed_run_continues_to_the_same_digits(tmp_path, whole, share):
     child.send_signal(signal.SIGKILL)
     child.communicate()
     begun = []
-    found = pull(problem(), maps=6, checkpoint=path, every=1e9, progress=begun.append)
+    found = pull(problem(), **HOW, checkpoint=path, every=1e9, progress=begun.append)
     assert begun[0] >= share  # no step was lost
     assert_same(found, whole)
     again = []
-    assert_same(pull(problem(), maps=6, checkpoint=path, progress=again.append), whole)
+    assert_same(pull(problem(), **HOW, checkpoint=path, progress=again.append), whole)
     assert not again  # the finished run is in the file

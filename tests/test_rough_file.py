@@ -67,13 +67,13 @@ def small(tmp_path, monkeypatch):
 
 def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
     line = ["rough", "small.toml", "--csv", "f.csv", "--maps", "m.npz", "--plot", "a.svg"]
-    done = CliRunner().invoke(application(), [*line, "--film", "a.gif", "--moments", "6"])
+    done = CliRunner().invoke(application(), [*line, "--film", "a.gif", "--moments", "3"])
     assert done.exit_code == 0, done.output
     rows = list(csv.DictReader(Path("f.csv").read_text().splitlines()))
     assert float(rows[-1]["contact_area_m2"]) == 0
     with np.load("m.npz") as maps:
         assert maps["map_gap_m"].shape[1:] == (16, 16)
-        assert 3 <= len(maps["map_gap_m"]) <= 6
+        assert 2 <= len(maps["map_gap_m"]) <= 3
         force = -json.loads(str(maps["summary"]))["pull_off_force_N"]
         assert maps["force_N"].min() == pytest.approx(force)
     assert Path("a.svg").stat().st_size > 5000
@@ -119,8 +119,7 @@ def test_a_map_that_is_too_coarse_is_refused_unless_forced(small):
     small.write_text(SMALL.replace('pixel = "10 um"', 'pixel = "60 um"'))
     with pytest.raises(InputError, match="2 are needed"):
         ask("rough", file="small.toml")
-    answer = ask("rough", file="small.toml", anyway=True)
-    assert "pixels" in answer.notes[0]
+    assert "pixels" in ask("rough", file="small.toml", anyway=True, accuracy=0.02).notes[0]
 
 
 def test_maps_are_read_with_their_digits(tmp_path):

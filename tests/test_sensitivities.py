@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from dimensionless import SOLID, punch
 from viscotack.model.protocol import Approach
 from viscotack.model.traction.growing import Eyring
 from viscotack.simulate.sensitivities import changed_inputs
 
 ARMS = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.03), (5.0, 1.0)], poisson_ratio=0.0)
 PULL = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=8.0)
-SOLID = vt.StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
 FORCE, WORK, DEPTH = "pull_off_force", "work_to_pull_off", "depth_at_pull_off"
 
 
@@ -68,7 +68,7 @@ def test_only_the_product_of_rate_and_times_matters(pulled, output):
 
 @pytest.mark.parametrize("name", ["material.branches.0.0", "preload"])
 def test_elasticities_are_slopes_through_finer_simulations(pulled, name):
-    steps = np.array([-0.03, -0.015, 0.015, 0.03])
+    steps = np.array([-0.02, 0.02])
     value = vt.campaign.inputs_of(PULL)[name].value
     outputs = []
     for step in steps:
@@ -80,20 +80,21 @@ def test_elasticities_are_slopes_through_finer_simulations(pulled, name):
             case = replace(PULL, material=replace(ARMS, branches=arms))
         result = vt.solve(case, until="pull-off", accuracy=5e-4, estimate_error=False)
         outputs.append([vt.summary(result)[output] for output in (FORCE, WORK, DEPTH)])
-    slopes = np.polyfit(steps, np.log(outputs), 2)[1]
+    slopes = np.diff(np.log(outputs), axis=0)[0] / 0.04
+    answer = vt.summary(vt.solve(PULL, until="pull-off", estimate_error=False))
     for output, slope in zip((FORCE, WORK, DEPTH), slopes, strict=True):
         error = pulled.errors[output][name]
         assert error < 0.03
         assert pulled.elasticities[output][name] == pytest.approx(slope, abs=error + 1e-3)
-        size = vt.summary(vt.solve(PULL, until="pull-off", estimate_error=False))[output]
-        expected = pulled.elasticities[output][name] * size / value
+        expected = pulled.elasticities[output][name] * answer[output] / value
         assert pulled.derivatives[output][name] == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_move_to_a_force_and_a_dwell_scale_with_time():
     moves = Approach(to=vt.AtForce(6.0), speed=3.0), vt.Dwell(0.5)
     test = vt.Groups(tabor=1.0, material=SOLID, start=vt.AtForce(1.0), rate=5.0, moves=moves)
-    by = found(test, ["rate", "moves.0.speed", "material.tau0", "moves.1.duration"])
+    names = ["rate", "moves.0.speed", "material.tau0", "moves.1.duration"]
+    by = found(test, names, accuracy=0.01)
     by = by.elasticities[FORCE]
     # every time of the problem scaled by one factor changes nothing
     assert by["rate"] + by["moves.0.speed"] == pytest.approx(
@@ -172,17 +173,9 @@ def test_an_elasticity_below_the_numerical_error_is_refused():
 def test_growing_interfaces_and_punches_have_elasticities():
     growing = Eyring.of(vt.LennardJones(1.0, 1.0), reference_speed=1.0, sensitivity=0.1)
     aged = replace(PULL, traction=growing)
-    by = found(aged, ["interface.sensitivity", "interface.reference_speed", "rate"], accuracy=5e-3)
+    by = found(aged, ["interface.sensitivity", "interface.reference_speed"], accuracy=0.01)
     by = by.elasticities[FORCE]
     assert by["interface.sensitivity"] > 0 > by["interface.reference_speed"]
-    punch = vt.Groups(
-        tabor=None,
-        cohesion=0.05,
-        geometry=vt.FlatPunch(20.0),
-        body=vt.Layer(3.0),
-        material=SOLID,
-        start=vt.AtDepth(1.0),
-        rate=1.0,
-    )
-    by = found(punch, ["rate", "material.tau0"], accuracy=0.01).elasticities["pull_off_stress"]
+    short = punch(vt.AtDepth(1.0), size=20.0, thickness=3.0, rate=1.0)
+    by = found(short, ["rate", "material.tau0"], accuracy=0.01).elasticities["pull_off_stress"]
     assert by["rate"] == pytest.approx(by["material.tau0"], rel=1e-6)

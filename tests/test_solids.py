@@ -79,28 +79,6 @@ def test_a_power_law_has_the_same_answer_through_either_door():
     assert np.all(made.inside(like))
 
 
-def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
-    pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from research.training.train_solids import CHOSEN, parts, read
-    from viscotack import datasets
-
-    tests = read(datasets.load("solids"))
-    tests = tests.chosen(parts(tests)["judge"] & (tests.number < CHOSEN))
-    made, facts = store.shipped("solids"), store.facts(store.FILES["solids"])
-    like = tests.like(made)
-    said = made.evaluate(like)
-    given = ~made.doubtful(like, said)
-    stated = facts["scores"]["judged by, drawn evenly"]
-    for name, found, true, some in (
-        ("force", said.pull_off_force, tests.rows.force, given[:, 0]),
-        ("work", said.work_to_pull_off, tests.rows.work, given[:, 1]),
-    ):
-        assert np.mean(np.log10(found / true)[some] ** 2) == pytest.approx(
-            stated[name]["mse_log10"], rel=1e-3
-        )
-        assert some.mean() == pytest.approx(stated[name]["given"])
-
-
 @pytest.mark.parametrize("name", SOLIDS)
 def test_slow_and_fast_it_tends_to_its_limits(name):
     slow, fast = (vt.predict(sphere(SOLIDS[name], rate=r)) for r in (1e-12, 1e16))

@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from melts import CHAMBER, EXPANSION, LAW, REFERENCE, creeps, melt, relaxations, vertical
-from reference_data import DMA
 from viscotack.lab import (
     CreepTest,
     FrequencySweeps,
@@ -19,7 +18,6 @@ from viscotack.lab import (
     fit,
     master_curve,
     nearest_law,
-    read_dma,
     shift_factors,
     superposed,
     superposition,
@@ -36,9 +34,6 @@ QUANTILE = 1.645  # of a 90 % interval
 @cache
 def curve_of_melt(seed):
     return master_curve(melt(seed), reference_temperature=REFERENCE)
-
-
-# ---- melts -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -61,7 +56,7 @@ def test_moduli_do_not_move_unless_asked():
     solid = FractionalZener(
         rubbery_modulus=1e6, glassy_modulus=1e9, order=0.5, tau0=1.0, poisson_ratio=0.5
     )
-    each = [sweeps_of(solid, CHAMBER[:5], seed) for seed in range(4)]
+    each = [sweeps_of(solid, CHAMBER[:5], seed) for seed in range(2)]
     off = {
         keywords.get("vertical"): np.array([
             master_curve(one, reference_temperature=REFERENCE, **keywords).shifts.log10_shift
@@ -88,13 +83,13 @@ def test_shifting_by_storage_alone_has_an_error_for_a_melt_and_reports_it():
     assert "Kramers-Kronig" in contradiction(curve)
 
 
-@pytest.mark.parametrize("draws", [6, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("draws", [3, pytest.param(20, marks=pytest.mark.slow)])
 def test_intervals_hold_the_true_shift(draws):
     tables = [curve_of_melt(seed).shifts for seed in range(draws)]
     off = np.array([table.log10_shift for table in tables]) - TRUE
     doubt = np.array([table.uncertainty for table in tables])
     held = np.delete(np.abs(off) <= QUANTILE * doubt, 1, axis=1)  # without the reference
-    # of 36 shifts of which six and six have an error in common; of 600 it was 95 %
+    # the six of a draw have an error in common; of 600 it was 95 %
     assert np.mean(held) > (0.75 if draws < 20 else 0.85)
     score = np.delete(off / np.where(doubt == 0, 1, doubt), 1, axis=1)
     assert 0.4 < np.sqrt(np.mean(score**2)) < 1.4
@@ -109,16 +104,6 @@ def test_a_sweep_that_is_off_is_named():
     assert "-10 C" in words
 
 
-def test_a_loss_that_contradicts_storage_is_found_out_and_the_shifts_are_called_uncertain():
-    # a published DMA through the glass transition, whose loss is no causal partner of its storage
-    sweeps = read_dma(DMA / "freq_user_raw.csv")
-    sweeps = sweeps.chosen((sweeps.temperature > 244) & (sweeps.temperature < 300))
-    curve = master_curve(sweeps, reference_temperature=298.15)
-    assert "do not superpose in loss" in superposition(sweeps, curve.shifts)[0]
-    assert "Kramers-Kronig" in contradiction(curve)
-    assert curve.shifts.uncertainty[0] > 0.5
-
-
 def test_a_law_for_the_table_is_found_or_none_is():
     table = shift_factors(melt(0, thermometer=0.0), reference_temperature=REFERENCE)
     found = nearest_law(table, reference_temperature=REFERENCE)
@@ -131,9 +116,6 @@ def test_a_law_for_the_table_is_found_or_none_is():
     rows = ShiftTable(CHAMBER, activated.log10_shift(CHAMBER), np.full(7, 0.02))
     law = nearest_law(rows, reference_temperature=REFERENCE).law
     assert isinstance(law, Arrhenius)
-
-
-# ---- what uncertain shifts do ------------------------------------------------------------------
 
 
 def sweeps_of(solid, temperatures, seed=0):
@@ -169,9 +151,6 @@ def test_uncertain_shifts_widen_intervals_and_go_into_the_passport(tmp_path):
     assert back.shift.vertical == tuple(curve.shifts.log10_vertical)
     assert isinstance(back.fitted_shift.law, WLF)
     assert back.shift_deviation(CHAMBER[0]) == pytest.approx(curve.shifts.uncertainty[0])
-
-
-# ---- over time ---------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("make", [relaxations, creeps])

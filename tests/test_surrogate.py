@@ -167,28 +167,3 @@ def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
         assert held[np.all(within, axis=0), 0].mean() > 0.8
     assert np.mean(apart.error[:, 0] ** 2) < 6e-7
     assert np.median(width[:, 0]) < 7e-4
-
-
-def test_the_slowest_retraction_is_elastic():
-    groups = random_groups(500)
-    groups[:, physics.RATE], groups[:, physics.EXPONENT] = 0.01, 2.0
-    groups[:, physics.PRELOAD] = np.minimum(groups[:, physics.PRELOAD], 5.0)
-    groups[:, physics.TABOR] = np.clip(groups[:, physics.TABOR], 0.1, 1.0)
-    groups[:, physics.MODULUS_RATIO] = 0.5
-    force = shipped().evaluate(groups).pull_off_force
-    assert force == pytest.approx(lennard_jones.pull_off_ratio(groups[:, 0]), rel=2e-2)
-
-
-def test_errors_on_test_rows_equal_those_in_the_file():
-    pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from research.training.calibration import given_of, judged
-    from research.training.train_sphere import parted
-
-    apart = judged(shipped(), parted()[1])
-    given = given_of(shipped().trust, apart)
-    widths = np.column_stack(shipped().trust.widths(apart.told, 0.9))
-    said = store.facts()["scores"]["kept apart at random"]["all"]
-    for i, name in enumerate(("force", "work")):
-        error, width = np.abs(apart.error[given[:, i], i]), widths[given[:, i], i]
-        assert np.mean(error**2) == pytest.approx(said[name]["mse_log10"], rel=1e-3)
-        assert np.mean(error <= width) == pytest.approx(said[name]["cover"], rel=1e-3)

@@ -197,7 +197,7 @@ def test_attraction_out_of_contact_does_not_bend_the_zero():
     force = 20 * size * np.maximum(depth / 8e-6, 0) ** 1.5
     force -= size * (1 + np.maximum(-depth, 0) / reach) ** -2.0
     time, errors = np.arange(depth.size) * 0.01, []
-    for seed in range(6):
+    for seed in range(3):
         noise = 2e-3 * size * np.random.default_rng(seed).standard_normal(force.size)
         noisy = force + noise + 2e-2 * size * time / time[-1]
         (cycle,) = tack.evaluate(tack.TackRecord(time, noisy, depth, into=1)).cycles
@@ -214,7 +214,7 @@ def test_noise_behind_a_soft_machine_makes_no_work_certain_by_chance():
     back = np.where(up > -0.3, 3 * ((up + 0.3) / 1.3) ** 2 - 1, ((up + 0.3) / 0.6) ** 2 - 1)
     pure = np.concatenate([2 * np.maximum(down, 0) ** 1.5, np.where(up < -0.9, 0.0, back)])
     drive = np.concatenate([down, up]) + compliance * pure
-    for seed in range(10):
+    for seed in range(5):
         force = pure + noise * np.random.default_rng(seed).standard_normal(pure.size)
         test = tack.TackRecord(np.arange(pure.size) * 0.01, force, drive, into=1)
         (cycle,) = tack.evaluate(test, compliance=compliance).cycles
@@ -228,7 +228,7 @@ def test_noise_behind_a_soft_machine_makes_no_work_certain_by_chance():
 
 def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
     ratios = []
-    for seed in range(20):
+    for seed in range(10):
         rng = np.random.default_rng([9, seed])
         test = rig_signals.pure(rng)
         steps = np.sqrt(np.gradient(test.time) / np.ptp(test.time))

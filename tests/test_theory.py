@@ -120,14 +120,3 @@ LJ = dict(radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
 def test_outside_its_domain_a_formula_raises_an_error_with_a_remedy(call, message):
     with pytest.raises(ValueError, match=message):
         call()
-
-
-def test_the_ends_of_a_branch_belong_to_it():
-    end, fold = jkr.pull_off(**CASE), jkr.instability(**CASE)
-    at_end = jkr.contact_radius_at_force(end.force, **CASE)
-    assert at_end == pytest.approx(end.contact_radius, rel=1e-7, abs=0)
-    at_fold = jkr.contact_radius_at_depth(fold.depth, **CASE)
-    # the fold has a square root: half of the digits
-    assert at_fold == pytest.approx(fold.contact_radius, rel=1e-7, abs=0)
-    pull_off = dmt.pull_off_force(radius=R, work_of_adhesion=W)
-    assert dmt.contact_radius_at_force(-pull_off, **CASE) == 0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from dimensionless import punch, standard
 from tier_problems import PROBLEMS, refusal
 from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import AT_ONCE, EXACT, LEARNED, SOON, THEORIES, TIERS, best
@@ -26,10 +27,6 @@ def groups(tabor=3.24, material=None, start=None, rate=316.23, **more):
         rate=rate,
         **more,
     )
-
-
-def standard(k):
-    return vt.StandardSolid(**UNIT, glassy_modulus=1 / k, tau0=1.0)
 
 
 @dataclass(frozen=True)
@@ -54,14 +51,8 @@ OWN = {
 }
 
 
-SHORT_PUNCH = vt.Groups(
-    tabor=None,
-    cohesion=0.5,
-    geometry=vt.FlatPunch(8.0),
-    body=vt.Layer(0.3),
-    material=standard(0.1),
-    start=vt.AtForce(0.1),
-    rate=1.0,
+SHORT_PUNCH = punch(
+    vt.AtForce(0.1), size=8.0, thickness=0.3, cohesion=0.5, material=standard(0.1), rate=1.0
 )
 
 
@@ -70,31 +61,6 @@ SHORT_PUNCH = vt.Groups(
 def test_every_tier_but_the_simulation_refuses_a_noun_it_was_not_verified_for(tier, noun):
     reason = refusal(tier, OWN[noun])
     assert "Own" in reason or "for punch" in reason, (tier.name, reason)
-
-
-@pytest.mark.parametrize("tier", TIERS, ids=lambda t: t.name)
-def test_a_tier_that_covers_a_problem_returns_a_value_with_an_interval(tier):
-    cases = [
-        groups(),
-        groups(material=standard(0.1), rate=1.0),
-        groups(tabor=50.0, start=vt.AtDepth(500.0), rate=30.0),
-        groups(material=vt.Elastic(**UNIT)),
-        groups(rate=1e-3),
-        groups(rate=1e8, start=vt.AtRadius(8.0)),
-        groups(rate=10.0),
-        punch(),
-    ]
-    answered = 0
-    # a simulation is slow, and takes them all
-    for case in [punch()] if tier is EXACT else cases:
-        try:
-            found = tier.answer(case)
-        except vt.OutOfRange:
-            continue
-        answered += 1
-        assert found.method == tier.name and found.band == "measured"
-        assert found.interval[0] < found.pull_off_force < found.interval[1]
-    assert answered
 
 
 CHEAP_TIERS = [tier for tier in TIERS if tier.cost < 1]
@@ -109,6 +75,7 @@ def test_answers_keep_to_their_limits_and_are_the_same_in_si(tier):
         except vt.OutOfRange:
             continue
         answered += 1
+        assert found.method == tier.name and found.band == "measured"
         low, high = found.interval
         assert low <= half.interval[0] * (1 + 1e-12) and half.interval[1] <= high * (1 + 1e-12)
         assert low <= found.pull_off_force <= high
@@ -126,18 +93,6 @@ def test_answers_keep_to_their_limits_and_are_the_same_in_si(tier):
         force = tier.answer(problem).pull_off_force
         assert force == pytest.approx(found.pull_off_force, rel=1e-9)
     assert answered
-
-
-def punch():
-    return vt.Groups(
-        tabor=None,
-        cohesion=0.05,
-        geometry=vt.FlatPunch(64.85),
-        body=vt.Layer(3.24),
-        material=standard(0.1),
-        start=vt.AtDepth(1.0),
-        rate=10.0,
-    )
 
 
 def test_a_larger_budget_uses_the_simulation_where_no_surrogate_applies():
@@ -163,7 +118,7 @@ def test_a_larger_budget_uses_the_simulation_where_no_surrogate_applies():
 
 
 def test_other_machines_are_simulated_on_request_and_else_refused():
-    spring = groups(stiffness=2.0)
+    spring = groups(1.0, start=vt.AtDepth(5.0), rate=5.0, stiffness=2.0)
     with pytest.raises(vt.OutOfRange, match="stiffness"):
         vt.predict(spring)
     exact = vt.predict(spring, exact=True)
@@ -214,7 +169,6 @@ SLOW = [
     (2.05, 4.72e-4, 0.2207, 8.0, 6e-3),
     (3.2, 2e-4, 1.3, 1.6, 1e-3),
     (0.1, 0.1, 0.5, 10.0, 1e-4),
-    (0.5, 5e-3, 0.3, 3.0, 1e-9),
 ]
 
 
@@ -232,10 +186,10 @@ def test_below_the_slowest_rate_of_the_training_the_interval_contains_the_simula
 
 @pytest.mark.parametrize(
     "material, tabor, rate",
-    [(solid(2e-4, 1.3), 3.2, 0.01), (solid(1e-3, 0.3), 100.0, 1e-4), (standard(0.1), 5.0, 0.01)],
+    [(solid(2e-4, 1.3), 3.2, 0.01), (solid(1e-2, 0.8), 100.0, 1e-4), (standard(0.1), 5.0, 0.01)],
 )
 def test_slow_forces_are_continuous_and_fall_to_the_elastic_one(material, tabor, rate):
-    rates = rate * np.array([1.02, 1.0, 0.98, 0.1, 1e-3, 1e-9])
+    rates = rate * np.array([1.02, 1.0, 0.98, 1e-3, 1e-9])
     found = [vt.predict(groups(tabor, material, vt.AtDepth(60.0), r)) for r in rates.tolist()]
     force = np.array([each.pull_off_force for each in found])
     assert np.all(np.diff(force) <= 1e-3 * force[1:])
@@ -249,7 +203,8 @@ def test_other_solids_that_hardly_lag_have_the_slow_force_of_simulations(kind, r
     prony = vt.Prony(**UNIT, branches=((9.0, 0.01), (90.0, 0.003)))
     material = prony if kind == "prony" else standard(0.01)
     case = groups(5.0, material, vt.AtDepth(30.0), rate)
-    found, result = vt.predict(case), vt.solve(case, until="pull-off", estimate_error=False)
+    found = vt.predict(case)
+    result = vt.solve(case, until="pull-off", accuracy=0.01, estimate_error=False)
     assert found.method == "surrogate of solids"
     assert found.interval[0] <= vt.pull_off_force(result) <= found.interval[1]
     assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
@@ -267,16 +222,6 @@ def test_theories_refuse_power_laws_by_relaxation(kind):
     material = vt.RelaxationPowerLaw(**UNIT, glassy_modulus=30.0, exponent=0.5, tau0=1.0)
     (tier,) = (t for t in THEORIES if t.name == kind)
     assert "the solid is relaxation-power-law" in refusal(tier, groups(material=material))
-
-
-@pytest.mark.parametrize("tabor", [0.5, 20.0])
-def test_the_table_of_elastic_forces_is_that_of_simulations(tabor):
-    case = groups(tabor=tabor, material=vt.Elastic(**UNIT), start=vt.AtForce(1.0), rate=1.0)
-    (tier,) = (t for t in THEORIES if t.name == "elastic")
-    found = tier.answer(case)
-    result = vt.solve(case, until="pull-off", accuracy=5e-3, estimate_error=False)
-    low, high = found.interval
-    assert low < vt.pull_off_force(result) < high < 1.011 * low
 
 
 def drawn(count, seed):

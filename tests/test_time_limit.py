@@ -7,16 +7,12 @@ from pathlib import Path
 
 import pytest
 
+import viscotack as vt
 from command_line import exit_status
 from viscotack import clock
-from viscotack.model.materials import StandardSolid
-from viscotack.model.problem import Groups
-from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell
-from viscotack.result import Outcome, load
-from viscotack.simulate import SimulationError, solve
 
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
+SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+SPHERE = vt.Groups(tabor=1.0, material=SOLID, start=vt.AtDepth(1.0), rate=10.0)
 EXAMPLES = Path(__file__).parents[1] / "examples"
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
 
@@ -54,15 +50,15 @@ def slow(monkeypatch, hand, seconds=0.01):
 
 def test_a_run_that_meets_its_time_limit_stops_and_keeps_what_there_is(monkeypatch, hand):
     slow(monkeypatch, hand, 0.03)
-    result = solve(SPHERE, time_limit=1.0, throw=False)
+    result = vt.solve(SPHERE, time_limit=1.0, throw=False)
     # of more than a hundred steps
     assert 2 < len(result.time) < 60
-    assert result.outcome is Outcome.STOPPED
+    assert result.outcome is vt.Outcome.STOPPED
     assert result.status.startswith("stopped because the time limit of 1 s was met at a depth of ")
     assert "give more time" in result.status
     assert result.error_estimate is None
-    with pytest.raises(SimulationError, match="time limit of 1 s") as failure:
-        solve(SPHERE, time_limit=1.0)
+    with pytest.raises(vt.SimulationError, match="time limit of 1 s") as failure:
+        vt.solve(SPHERE, time_limit=1.0)
     assert len(failure.value.result.time) > 2
 
 
@@ -91,13 +87,13 @@ def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, hand, 
     answer = json.loads(capsys.readouterr().out)
     assert answer["status"].startswith("stopped because the time limit of 0.6 s was met")
     assert answer["pull_off_force"] is None
-    assert len(load(saved).time) > 2
+    assert len(vt.load(saved).time) > 2
 
 
 def test_progress_counts_time_depth_and_edge_and_ends_with_the_companion():
     seen = []
-    moves = (Approach(10.0, AtDepth(5.0)), Dwell(10.0))
-    solve(replace(SPHERE, start=Apart(8.0), moves=moves), progress=seen.append)
+    moves = (vt.Approach(10.0, vt.AtDepth(5.0)), vt.Dwell(10.0))
+    vt.solve(replace(SPHERE, start=vt.Apart(8.0), moves=moves), progress=seen.append)
     assert all(later >= before - 1e-12 for before, later in zip(seen[:-1], seen[1:], strict=True))
     # of three legs, before a companion that is a fifth: the approach moves it all the way
     assert sum(0.02 < share < 0.8 / 3 - 0.02 for share in seen) > 10

@@ -37,12 +37,11 @@ def test_an_elastic_sphere_has_the_indices_of_a_product():
     assert found.median == pytest.approx(1.5 * np.pi * 5e-3 * 0.1, rel=0.01)
 
 
-@pytest.mark.parametrize("confidence", [0.9, 0.5])
-def test_without_scatter_the_band_is_that_of_the_tier(confidence):
+def test_without_scatter_the_band_is_that_of_the_tier():
     problem = replace(elastic(), traction=vt.LennardJones(0.1, 2e-7))
-    found = vt.uncertainty(problem, {RADIUS: 1e-5}, samples=8, confidence=confidence)
+    found = vt.uncertainty(problem, {RADIUS: 1e-5}, samples=8, confidence=0.5)
     low, high = vt.predict(problem).interval
-    share = NormalDist().inv_cdf((1 + confidence) / 2) / NormalDist().inv_cdf(0.95)
+    share = NormalDist().inv_cdf(0.75) / NormalDist().inv_cdf(0.95)
     assert np.log(found.interval[1] / found.interval[0]) == pytest.approx(
         share * np.log(high / low), rel=0.03
     )
@@ -59,17 +58,16 @@ def elastic(work=0.1, modulus=1e6):
 
 def test_sampled_interfaces_and_solids_have_the_indices_of_their_scatter():
     """JKR: the force is proportional to the work, and the modulus has no share."""
-    works = 0.1 * np.exp(0.1 * np.random.default_rng(3).standard_normal(8))
+    works = 0.1 * np.exp(0.1 * np.random.default_rng(3).standard_normal(4))
     sampled = {
         "traction": [elastic(work=float(w)).traction for w in works],
         "material": [elastic(modulus=1e6 * x).material for x in (0.8, 1.25)],
     }
-    found = vt.uncertainty(elastic(), {RADIUS: 0.03}, sampled=sampled, samples=20)
-    s2, r2 = float(np.var(np.log(works))), 0.03**2
-    assert list(found.first) == [RADIUS, "traction", "material", TIER]
-    assert found.first["traction"] == pytest.approx(s2 / (s2 + r2), abs=0.01)
+    found = vt.uncertainty(elastic(), {}, sampled=sampled, samples=12)
+    assert list(found.first) == ["traction", "material", TIER]
+    assert found.first["traction"] == pytest.approx(1, abs=0.02)
     assert found.total["material"] < 1e-6
-    assert found.deviation == pytest.approx(np.sqrt(s2 + r2), rel=0.03)
+    assert found.deviation == pytest.approx(np.std(np.log(works)), rel=0.03)
 
 
 def test_an_error_of_all_times_is_that_of_the_only_time():
@@ -99,7 +97,7 @@ def test_the_temperature_of_a_passport_is_an_input(monkeypatch):
 
 def test_the_band_is_that_of_direct_predictions(lens):
     rng, forces = np.random.default_rng(8), []
-    for z in np.clip(rng.standard_normal((300, 3)), -3, 3):
+    for z in np.clip(rng.standard_normal((200, 3)), -3, 3):
         R, w, v = np.exp(z * [0.05, 0.1, 0.3])
         case = replace(
             CASE,

@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viscotack.errors import InputError
+from viscotack.files.text import cell
 from viscotack.units import finite, parse, positive, readable
 
 
@@ -32,10 +33,14 @@ def test_text_with_a_unit_becomes_si(text, unit, value):
         ("5.19 mmm", "m", "unknown unit 'mmm'"),
         ("5,19 mm", "m", "write it like '5.19 mm', with a decimal point"),
         ("nan m", "m", "not a number and a unit"),
+        # numbers in the text of a unit are no powers
+        ("5.19 9^9^9^9 mm", "m", "exponents|unknown unit"),
+        ("5 9⁻²²²² mm", "m", "exponents|unknown unit"),
+        ("2 " + "m*" * 100 + "m", "m", "exponents|unknown unit"),
     ],
 )
 def test_a_wrong_quantity_is_refused_with_words_that_help(text, unit, words):
-    with pytest.raises(ValueError, match=words):
+    with pytest.raises(InputError, match=words):
         parse(text, unit)
 
 
@@ -117,3 +122,8 @@ def test_a_temperature_is_not_below_absolute_zero():
     assert parse("-273 degC", "K") == pytest.approx(0.15)
     with pytest.raises(InputError, match="-274 degC"):
         parse("-274 degC", "K")
+
+
+@pytest.mark.parametrize("text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1"])
+def test_a_cell_of_a_table_is_no_formula(text):
+    assert cell(text) == f"'{text}"

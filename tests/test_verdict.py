@@ -4,21 +4,17 @@ from dataclasses import replace
 
 import pytest
 
-from viscotack import SimulationError, load, save, summary
-from viscotack.model.materials import Elastic, StandardSolid
-from viscotack.model.problem import Groups
-from viscotack.model.protocol import Apart, Approach, AtDepth
-from viscotack.model.traction import Exponential
-from viscotack.simulate import Settings, solve
+import viscotack as vt
+from viscotack.simulate import Settings
 from viscotack.simulate.verdict import judged
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-PRESSED = AtDepth(3.0)
+ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+PRESSED = vt.AtDepth(3.0)
 
 
 def case(material=ELASTIC, start=PRESSED, **options):
-    return Groups(tabor=1.0, material=material, start=start, rate=5.0, **options)
+    return vt.Groups(tabor=1.0, material=material, start=start, rate=5.0, **options)
 
 
 def pulled(problem=None, asked=None, **options):
@@ -26,7 +22,7 @@ def pulled(problem=None, asked=None, **options):
     settings = Settings.for_accuracy(0.02)
     if asked is not None:
         settings = replace(settings, accuracy=asked)
-    return solve(problem or case(), until="pull-off", settings=settings, **options)
+    return vt.solve(problem or case(), until="pull-off", settings=settings, **options)
 
 
 @pytest.mark.parametrize(("asked", "met"), [(0.02, True), (5e-4, False)])
@@ -34,9 +30,9 @@ def test_a_result_says_whether_the_accuracy_was_met(asked, met, tmp_path):
     result = pulled(asked=asked)
     assert result.accuracy == asked and result.accuracy_met is met
     assert (result.error_estimate["force"] <= asked) is met
-    assert summary(result)["accuracy_met"] is met
-    save(result, tmp_path / "result.npz")
-    again = load(tmp_path / "result.npz")
+    assert vt.summary(result)["accuracy_met"] is met
+    vt.save(result, tmp_path / "result.npz")
+    again = vt.load(tmp_path / "result.npz")
     assert again.accuracy == asked and again.accuracy_met is met
 
 
@@ -45,8 +41,8 @@ def test_a_force_ten_times_less_accurate_than_asked_is_not_given():
     assert result.outcome == "stopped" and result.error_estimate is not None
     assert "the pull-off force is not resolved: its error is estimated at" in result.status
     assert "beside 0.0001 % requested; ask for a better accuracy" in result.status
-    assert summary(result)["pull_off_force"] is None
-    with pytest.raises(SimulationError, match="not resolved"):
+    assert vt.summary(result)["pull_off_force"] is None
+    with pytest.raises(vt.SimulationError, match="not resolved"):
         pulled(asked=1e-6)
 
 
@@ -58,8 +54,8 @@ def test_a_force_ten_times_less_accurate_than_asked_is_not_given():
         (case(), 1.15, False),
         (case(SOLID), 0.85, False),
         (case(SOLID), 20.0, True),
-        (case(start=AtDepth(-1.6)), 0.85, False),
-        (case(start=Apart(8.0), moves=(Approach(5.0, AtDepth(2.0)),)), 3.0, False),
+        (case(start=vt.AtDepth(-1.6)), 0.85, False),
+        (case(start=vt.Apart(8.0), moves=(vt.Approach(5.0, vt.AtDepth(2.0)),)), 3.0, False),
     ],
     ids=[
         "above Derjaguin",
@@ -79,6 +75,6 @@ def test_a_force_that_theory_rules_out_is_not_given(problem, factor, stopped):
 
 
 def test_a_law_beyond_the_mesh_is_answered_by_theory():
-    problem = replace(case(), tabor=3.0, traction=Exponential(1.0, 1.0, 1e-3))
-    result = solve(problem)
+    problem = replace(case(), tabor=3.0, traction=vt.Exponential(1.0, 1.0, 1e-3))
+    result = vt.solve(problem)
     assert result.method == "crack contact" and "a Tabor number of 1075" in result.status

@@ -152,7 +152,7 @@ def test_an_interface_that_grows_with_speed_is_simulated_only():
     grown = replace(at_rest, traction=law)
     found = vt.which_opens(donor, grown)
     assert found.opened is None
-    results = [vt.simulate_in_series(donor, stamp, accuracy=0.01) for stamp in (at_rest, grown)]
+    results = [vt.simulate_in_series(donor, stamp, accuracy=0.02) for stamp in (at_rest, grown)]
     assert [result.opened for result in results] == [1, 0]
 
 
@@ -173,29 +173,16 @@ def test_pairs_that_are_not_one_object_in_one_machine_are_refused(change, words)
         vt.which_opens(contact(), replace(contact(), **change))
 
 
-@pytest.fixture(scope="module")
-def found():
-    return vt.window(
-        contact(),
-        donor=contact(ELASTIC, work=0.4),
-        receiver=contact(ELASTIC, work=0.8),
-        speeds=[1e-5, 4e-5, 1e-3],
-        preloads=[2e-3],
-    )
-
-
-def test_critical_speeds_are_where_the_tension_is_the_pull_off_force_of_an_elastic_donor(found):
-    assert [critical.base for critical in found.critical_speeds] == ["donor", "receiver"]
-    for critical in found.critical_speeds:
-        work = {"donor": 0.4, "receiver": 0.8}[critical.base]
-        options = {"speed": critical.speed, "force": critical.preload}
-        base, stamp = contact(ELASTIC, work=work, **options), contact(**options)
-        assert vt.which_opens(base, stamp).tension == pytest.approx(
-            elastic_pull_off(base), rel=2e-3
-        )
-        low, high = critical.interval
-        assert low < critical.speed < high
-        assert (critical.below, critical.above) == ("stamp", critical.base)
+def test_critical_speeds_are_where_the_tension_is_the_pull_off_force_of_an_elastic_donor():
+    donor = contact(ELASTIC, work=0.4)
+    found = vt.window(contact(), donor=donor, speeds=[1e-5, 1e-3], preloads=[2e-3])
+    (critical,) = found.critical_speeds
+    base = contact(ELASTIC, work=0.4, speed=critical.speed, force=critical.preload)
+    stamp = contact(speed=critical.speed, force=critical.preload)
+    assert vt.which_opens(base, stamp).tension == pytest.approx(elastic_pull_off(base), rel=2e-3)
+    low, high = critical.interval
+    assert low < critical.speed < high
+    assert (critical.below, critical.above) == ("stamp", "donor")
 
 
 def test_cells_without_a_relaxed_contact_are_undecided_with_the_reason():

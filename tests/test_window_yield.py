@@ -16,17 +16,17 @@ from viscotack.app.cli import application
 from viscotack.app.operations import ask
 from viscotack.design import read_window
 from viscotack.design.window import aged, opening_chance
-from viscotack.model.materials.passport_file import read_passport
+from viscotack.model.materials import Passport, write_passport
+from viscotack.model.materials.shift import WLF
 from viscotack.model.traction import SaturatingAgeing
-
-PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
 
 
 @pytest.mark.parametrize("first, second", [(0.1, 0.0), (0.0, 0.1), (0.1, 0.2)])
 def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(first, second):
     stamp = contact(ELASTIC, work=0.2)
     base = with_work(stamp, 0.21)
-    found = opening_chance(stamp, base, works=(first, second))
+    # the pull-off of an elastic sphere does not depend on its preload
+    found = opening_chance(stamp, base, works=(first, second), preload=0.1)
     # the gap is kept, so that only the range of the forces differs a little
     expected = NormalDist().cdf(log(1.05) / sqrt(first**2 + second**2))
     assert found.value == pytest.approx(expected, abs=0.015)
@@ -36,26 +36,12 @@ def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(
     assert off == pytest.approx([-0.01, 0.01], rel=0.03)
 
 
-def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs():
-    stamp = contact(ELASTIC, work=0.2)
-    drawn = np.exp(0.1 * np.random.default_rng(1).standard_normal((300, 3)))
-    opened = [
-        vt.which_opens(*(contact(ELASTIC, work=w, force=2e-3 * P) for w in (0.2 * x, 0.21 * y)))
-        for x, y, P in drawn
-    ]
-    share = [each.nominal for each in opened].count(0) / 300
-    base = with_work(stamp, 0.21)
-    chance = opening_chance(stamp, base, works=(0.1, 0.1), preload=0.1).value
-    assert share == pytest.approx(chance, abs=3 * sqrt(chance * (1 - chance) / 300))
-
-
 FEW = SMALL.replace('"1 um/s..100 um/s"', '"10 um/s"')
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "pdms.toml").write_text(PASSPORT.read_text())
     return tmp_path
 
 
@@ -85,7 +71,11 @@ ELASTIC_STAMP = (
 
 @pytest.mark.slow
 def test_a_critical_speed_moves_by_the_shift_factor(folder):
-    text = WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "pdms.toml"')
+    solid = vt.StandardSolid(rubbery_modulus=2e6, glassy_modulus=20e6, tau0=1e-2, poisson_ratio=0.5)
+    shift = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
+    passport = Passport(name="rubber", material=solid, temperature=293.15, shift=shift)
+    write_passport(passport, folder / "rubber.toml")
+    text = WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "rubber.toml"')
     Path("warm.toml").write_text(
         text.replace('"1 um/s..100 um/s"', '["1 um/s", "10 mm/s"]').replace(
             'stiffness = "1 kN/m"\n', ""
@@ -93,7 +83,6 @@ def test_a_critical_speed_moves_by_the_shift_factor(folder):
     )
     answer = ask("window", file="warm.toml")
     cold, warm = (x["critical_speed_m_per_s"] for x in answer.record()["critical_speeds"])
-    passport = read_passport(PASSPORT)
     ratio = passport.shift_factor(273.15) / passport.shift_factor(288.15)
     assert warm / cold == pytest.approx(ratio, rel=0.02)
 

@@ -1,6 +1,7 @@
 """Problems that the tiers are tested with: Tabor numbers, materials and rates; a punch."""
 
 import viscotack as vt
+from dimensionless import punch
 
 
 def refusal(tier, case):
@@ -19,18 +20,11 @@ PROBLEMS = (
     *(vt.Groups(tabor, _SOFT, vt.AtForce(1.0), 1.0) for tabor in (0.2, 1.5, 8.0)),
     # a large preload, from which a fast retraction meets the glassy solid
     vt.Groups(1.5, SOLIDS[0], vt.AtForce(300.0), 1e7),
-    vt.Groups(
-        None,
-        SOLIDS[0],
-        vt.AtForce(0.1),
-        10.0,
-        geometry=vt.FlatPunch(60.0),
-        body=vt.Layer(3.0),
-        cohesion=0.05,
-    ),
+    punch(vt.AtForce(0.1), size=60.0, thickness=3.0, rate=10.0),
     *(
-        vt.Groups(tabor, solid, vt.AtForce(2.0 * max(tabor, 1.0)), rate)
-        for tabor, rate in ((0.05, 1.0), (1.5, 10.0), (4.0, 100.0), (60.0, 1e3), (1e7, 1.0))
-        for solid in SOLIDS
+        vt.Groups(tabor, SOLIDS[i % 2], vt.AtForce(2.0 * max(tabor, 1.0)), rate)
+        for i, (tabor, rate) in enumerate(
+            [(0.05, 1.0), (1.5, 10.0), (4.0, 100.0), (60.0, 1e3), (1e7, 1.0)]
+        )
     ),
 )

@@ -5,33 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import viscotack as vt
 from dimensionless import ELASTIC, standard
-from viscotack import (
-    Apart,
-    Approach,
-    AtDepth,
-    AtForce,
-    AtRadius,
-    Cone,
-    Dwell,
-    FlatPunch,
-    Groups,
-    Layer,
-    LennardJones,
-    LoadTo,
-    MoveTo,
-    OutOfRange,
-    PowerLawProfile,
-    Problem,
-    Prony,
-    Retract,
-    Retraction,
-    Sphere,
-    crack_contact,
-    pull_off,
-    solve,
-    work_to_pull_off,
-)
 from viscotack.theory import SteadyCrack, profiles
 from viscotack.theory.crack.contact import (
     Contact,
@@ -42,7 +17,7 @@ from viscotack.theory.crack.contact import (
     recede,
 )
 
-REDUCED = LennardJones(1.0, 1.0)
+REDUCED = vt.LennardJones(1.0, 1.0)
 
 
 class Blunt:
@@ -61,7 +36,9 @@ class Blunt:
 
 
 def test_an_elastic_sphere_is_that_of_jkr():
-    found = crack_contact(Groups(tabor=1e4, material=ELASTIC, start=AtDepth(1e5), rate=1.0))
+    found = vt.crack_contact(
+        vt.Groups(tabor=1e4, material=ELASTIC, start=vt.AtDepth(1e5), rate=1.0)
+    )
     assert found.pull_off_force == pytest.approx(1, rel=2e-4)
     assert found.contact_radius_at_pull_off == pytest.approx((9 / 8) ** (1 / 3), rel=2e-2)
     # its end is a flat minimum
@@ -69,11 +46,11 @@ def test_an_elastic_sphere_is_that_of_jkr():
 
 
 @pytest.mark.parametrize(
-    ("shape", "q", "A"), [(Cone(1.0), 1, 1.0), (PowerLawProfile(0.25, 4.0), 4, 0.25)]
+    ("shape", "q", "A"), [(vt.Cone(1.0), 1, 1.0), (vt.PowerLawProfile(0.25, 4.0), 4, 0.25)]
 )
 def test_elastic_tips_are_those_of_the_theory_of_profiles(shape, q, A):
-    found = crack_contact(
-        Groups(tabor=1e4, material=ELASTIC, start=AtDepth(3e5), rate=1.0, geometry=shape)
+    found = vt.crack_contact(
+        vt.Groups(tabor=1e4, material=ELASTIC, start=vt.AtDepth(3e5), rate=1.0, geometry=shape)
     )
     case = dict(coefficient=A, exponent=q, contact_modulus=1.0, work_of_adhesion=1.0)
     expected = -float(profiles.pull_off(**case).force) / (1.5 * np.pi)
@@ -83,8 +60,8 @@ def test_elastic_tips_are_those_of_the_theory_of_profiles(shape, q, A):
 def test_a_fast_retraction_from_a_large_contact_is_glassy():
     # P = 1/k, a = (9/8k)^(1/3), w = 0.8018 k^(-2/3) mu pi^(2/3), by superposition
     mu, k = 1e5, 0.1
-    found = crack_contact(
-        Groups(tabor=mu, material=standard(k), start=AtDepth(40 * mu), rate=1e9 * mu)
+    found = vt.crack_contact(
+        vt.Groups(tabor=mu, material=standard(k), start=vt.AtDepth(40 * mu), rate=1e9 * mu)
     )
     assert found.pull_off_force == pytest.approx(1 / k, rel=2e-3)
     assert found.contact_radius_at_pull_off == pytest.approx((9 / (8 * k)) ** (1 / 3), rel=2e-2)
@@ -93,7 +70,7 @@ def test_a_fast_retraction_from_a_large_contact_is_glassy():
 
 
 def test_both_ways_to_a_receding_contact_agree():
-    crack, profile = SteadyCrack(standard(), REDUCED), profile_of(Sphere(1.0))
+    crack, profile = SteadyCrack(standard(), REDUCED), profile_of(vt.Sphere(1.0))
     a0 = radius_at_depth(profile, 20.0)
     for rate in (1.0, 100.0):
         curve = recede(
@@ -108,7 +85,7 @@ def test_both_ways_to_a_receding_contact_agree():
 
 
 def test_a_shape_of_the_users_own_is_tabulated():
-    own, sphere = profile_of(Blunt()), profile_of(Sphere(1.0))
+    own, sphere = profile_of(Blunt()), profile_of(vt.Sphere(1.0))
     radii = np.geomspace(1e-3, 100, 30)
     for name in ("depth", "total", "relaxed_depth", "relaxed_force"):
         assert getattr(own, name)(radii) == pytest.approx(getattr(sphere, name)(radii), rel=1e-6)
@@ -118,39 +95,39 @@ def test_a_shape_of_the_users_own_is_tabulated():
 @pytest.mark.parametrize(
     "groups",
     [
-        Groups(tabor=10, material=standard(), start=AtDepth(200), rate=300),
-        Groups(
+        vt.Groups(tabor=10, material=standard(), start=vt.AtDepth(200), rate=300),
+        vt.Groups(
             tabor=10,
-            material=Prony(
+            material=vt.Prony(
                 rubbery_modulus=1.0, poisson_ratio=0.0, branches=((1.0, 0.05), (3.0, 0.5))
             ),
-            start=AtDepth(100),
+            start=vt.AtDepth(100),
             rate=100,
-            geometry=PowerLawProfile(0.25, 4.0),
+            geometry=vt.PowerLawProfile(0.25, 4.0),
         ),
     ],
 )
 def test_the_pull_off_is_that_of_a_simulation(groups):
-    found = crack_contact(groups)
-    result = solve(groups, until="pull-off", estimate_error=False)
-    simulated = pull_off(result)
+    found = vt.crack_contact(groups)
+    result = vt.solve(groups, until="pull-off", estimate_error=False)
+    simulated = vt.pull_off(result)
     assert found.pull_off_force == pytest.approx(simulated.force, rel=0.01)
     assert found.pull_off_force == pytest.approx(simulated.force, rel=found.band)
     assert found.time_at_pull_off == pytest.approx(simulated.time, rel=0.03)
     assert found.contact_radius_at_pull_off == pytest.approx(simulated.contact_radius, rel=0.03)
-    assert found.work_to_pull_off == pytest.approx(work_to_pull_off(result), rel=0.06)
+    assert found.work_to_pull_off == pytest.approx(vt.work_to_pull_off(result), rel=0.06)
 
 
 def test_a_history_is_that_of_a_simulation():
-    groups = Groups(
+    groups = vt.Groups(
         tabor=4.0,
         material=standard(0.2),
-        start=Apart(20.0),
-        moves=(Approach(20.0, AtDepth(50.0)), Dwell(0.5, "force")),
+        start=vt.Apart(20.0),
+        moves=(vt.Approach(20.0, vt.AtDepth(50.0)), vt.Dwell(0.5, "force")),
         rate=20.0,
     )
-    found, result = crack_contact(groups), solve(groups, estimate_error=False, accuracy=0.01)
-    assert found.pull_off_force == pytest.approx(pull_off(result).force, rel=found.band)
+    found, result = vt.crack_contact(groups), vt.solve(groups, estimate_error=False, accuracy=0.01)
+    assert found.pull_off_force == pytest.approx(vt.pull_off(result).force, rel=found.band)
     assert found.force.max() == pytest.approx(result.force.max(), rel=0.03)
     loop = np.sum((result.force[1:] + result.force[:-1]) / 2 * np.diff(result.depth))
     assert found.hysteresis == pytest.approx(loop, rel=0.03)
@@ -159,13 +136,13 @@ def test_a_history_is_that_of_a_simulation():
 @pytest.mark.parametrize("hold", ["depth", "force"])
 def test_after_a_very_long_dwell_the_contact_has_relaxed(hold):
     # a dwell of a million times, then a jump of a few 1e-10 of one: steps were round-off
-    press = Approach(1e4, to=AtForce(20.0)), Dwell(1e6, hold=hold)
-    dwelt = Groups(tabor=100.0, material=standard(), start=Apart(5.0), moves=press, rate=1e3)
-    found = crack_contact(dwelt)
-    start = AtForce(20.0)
+    press = vt.Approach(1e4, to=vt.AtForce(20.0)), vt.Dwell(1e6, hold=hold)
+    dwelt = vt.Groups(tabor=100.0, material=standard(), start=vt.Apart(5.0), moves=press, rate=1e3)
+    found = vt.crack_contact(dwelt)
+    start = vt.AtForce(20.0)
     if hold == "depth":
-        start = AtDepth(float(found.depth[found.move == 1][-1]))
-    rested = crack_contact(Groups(tabor=100.0, material=standard(), start=start, rate=1e3))
+        start = vt.AtDepth(float(found.depth[found.move == 1][-1]))
+    rested = vt.crack_contact(vt.Groups(tabor=100.0, material=standard(), start=start, rate=1e3))
     assert found.pull_off_force == pytest.approx(rested.pull_off_force, rel=5e-3)
     assert found.status == "detached"
 
@@ -176,14 +153,14 @@ def test_cycles_that_do_not_relax_have_a_bell():
     mu = 100.0
     forces = []
     for rate in (1e-7, 1.0, 1e7):
-        groups = Groups(
+        groups = vt.Groups(
             tabor=mu,
             material=standard(),
-            start=Apart(20.0),
-            moves=(Approach(rate * mu, AtDepth(10 * mu)),),
+            start=vt.Apart(20.0),
+            moves=(vt.Approach(rate * mu, vt.AtDepth(10 * mu)),),
             rate=rate * mu,
         )
-        forces.append(crack_contact(groups).pull_off_force)
+        forces.append(vt.crack_contact(groups).pull_off_force)
     slow, between, fast = forces
     assert slow == pytest.approx(1, rel=0.05)
     assert fast == pytest.approx(1, rel=0.05)
@@ -193,7 +170,9 @@ def test_cycles_that_do_not_relax_have_a_bell():
 def test_jkr_overestimates_the_work_of_a_contact_that_had_relaxed():
     # Carbone: with the energy of the edge in JKR the bulk is taken for relaxed while it is glassy
     mu = 100.0
-    found = crack_contact(Groups(tabor=mu, material=standard(), start=AtDepth(2e3), rate=1e4))
+    found = vt.crack_contact(
+        vt.Groups(tabor=mu, material=standard(), start=vt.AtDepth(2e3), rate=1e4)
+    )
     gamma = found.amplification_at_pull_off
     jkr = 0.801822 * gamma ** (5 / 3) * mu * np.pi ** (2 / 3)
     assert gamma > 5
@@ -204,15 +183,17 @@ def test_jkr_overestimates_the_work_of_a_contact_that_had_relaxed():
 
 def test_moves_end_where_they_are_told():
     moves = (
-        Approach(100.0, AtForce(2.0)),
-        Dwell(0.3, "depth"),
-        LoadTo(3.0, 0.2),
-        Dwell(0.2, "force"),
-        MoveTo(30.0, 0.5),
-        Retract(50.0, AtRadius(1.2)),
+        vt.Approach(100.0, vt.AtForce(2.0)),
+        vt.Dwell(0.3, "depth"),
+        vt.LoadTo(3.0, 0.2),
+        vt.Dwell(0.2, "force"),
+        vt.MoveTo(30.0, 0.5),
+        vt.Retract(50.0, vt.AtRadius(1.2)),
     )
-    groups = Groups(tabor=20.0, material=standard(), start=Apart(10.0), moves=moves, rate=None)
-    found = crack_contact(groups)
+    groups = vt.Groups(
+        tabor=20.0, material=standard(), start=vt.Apart(10.0), moves=moves, rate=None
+    )
+    found = vt.crack_contact(groups)
     last = [np.flatnonzero(found.move == i)[-1] for i in range(len(moves))]
     assert found.force[last[0]] == pytest.approx(2.0, rel=1e-4)
     assert found.depth[last[1]] == found.depth[last[0]]
@@ -228,28 +209,28 @@ def test_moves_end_where_they_are_told():
 
 def test_what_the_theory_cannot_answer_is_refused_with_the_reason():
     solid = standard()
-    with pytest.raises(OutOfRange, match="cohesive zone is too large"):
-        crack_contact(Groups(tabor=1.0, material=solid, start=AtDepth(20), rate=10))
-    with pytest.raises(OutOfRange, match="preload is too small"):
-        crack_contact(Groups(tabor=10, material=solid, start=AtRadius(1.3), rate=1e4))
+    with pytest.raises(vt.OutOfRange, match="cohesive zone is too large"):
+        vt.crack_contact(vt.Groups(tabor=1.0, material=solid, start=vt.AtDepth(20), rate=10))
+    with pytest.raises(vt.OutOfRange, match="preload is too small"):
+        vt.crack_contact(vt.Groups(tabor=10, material=solid, start=vt.AtRadius(1.3), rate=1e4))
     with pytest.raises(ValueError, match="no relaxed contact"):
-        crack_contact(Groups(tabor=10, material=solid, start=AtDepth(-100), rate=1))
-    pad = Problem(
+        vt.crack_contact(vt.Groups(tabor=10, material=solid, start=vt.AtDepth(-100), rate=1))
+    pad = vt.Problem(
         material=solid,
-        traction=LennardJones(work_of_adhesion=1e-3, equilibrium_gap=1e-4),
-        geometry=FlatPunch(1e-1),
-        body=Layer(1e-2),
-        protocol=Retraction(start=AtDepth(1e-4), speed=1e-3),
+        traction=vt.LennardJones(work_of_adhesion=1e-3, equilibrium_gap=1e-4),
+        geometry=vt.FlatPunch(1e-1),
+        body=vt.Layer(1e-2),
+        protocol=vt.Retraction(start=vt.AtDepth(1e-4), speed=1e-3),
     )
-    with pytest.raises(OutOfRange, match="flat punch"):
-        crack_contact(pad)
+    with pytest.raises(vt.OutOfRange, match="flat punch"):
+        vt.crack_contact(pad)
 
 
 def test_a_retraction_in_two_moves_takes_the_work_of_one():
     """Of an elastic solid, whatever the speed of the first; the last one begins in tension."""
-    rest = Groups(tabor=200.0, material=ELASTIC, start=AtForce(0.0), rate=3.0)
-    split = replace(rest, moves=(Retract(1.0, AtDepth(40.0)),))
-    one, two = crack_contact(rest), crack_contact(split)
+    rest = vt.Groups(tabor=200.0, material=ELASTIC, start=vt.AtForce(0.0), rate=3.0)
+    split = replace(rest, moves=(vt.Retract(1.0, vt.AtDepth(40.0)),))
+    one, two = vt.crack_contact(rest), vt.crack_contact(split)
     assert two.pull_off_force == pytest.approx(one.pull_off_force, rel=1e-4)
     # its place, at a flat minimum, is known to a step
     assert two.work_to_pull_off == pytest.approx(one.work_to_pull_off, rel=0.02)
@@ -257,9 +238,11 @@ def test_a_retraction_in_two_moves_takes_the_work_of_one():
 
 def test_a_stop_on_the_way_out_is_no_pull_off_and_ends_no_work():
     """Pulled fast, stopped, and pulled off slowly: the tension is largest at the stop."""
-    moves = (Retract(300.0, AtDepth(-200.0)), Dwell(300.0))
-    groups = Groups(tabor=100.0, material=standard(), start=AtDepth(300.0), moves=moves, rate=0.3)
-    found = crack_contact(groups)
+    moves = (vt.Retract(300.0, vt.AtDepth(-200.0)), vt.Dwell(300.0))
+    groups = vt.Groups(
+        tabor=100.0, material=standard(), start=vt.AtDepth(300.0), moves=moves, rate=0.3
+    )
+    found = vt.crack_contact(groups)
     at_stop = -found.force[found.move == 0][-1]
     slowly = found.force[found.move == 2]
     assert at_stop > 2 * found.pull_off_force

@@ -5,30 +5,23 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import gamma as gamma_function
 
+import viscotack as vt
 from dimensionless import last_slope
-from viscotack.model.materials import (
-    Elastic,
-    FractionalZener,
-    Prony,
-    RelaxationPowerLaw,
-    RetardationPowerLaw,
-    StandardSolid,
-)
 from viscotack.theory import CrackLaw, greenwood, persson_brener
 from viscotack.theory.crack.law import THEORIES
 
 MODULI = dict(rubbery_modulus=1.2e6, glassy_modulus=3e7, poisson_ratio=0.5)
 SOLIDS = [
-    StandardSolid(**MODULI, tau0=0.02),
-    Prony(
+    vt.StandardSolid(**MODULI, tau0=0.02),
+    vt.Prony(
         rubbery_modulus=1.2e6,
         branches=((2e6, 1.0), (8e6, 1e-2), (1.9e7, 1e-5)),
         poisson_ratio=0.5,
     ),
-    RetardationPowerLaw(**MODULI, exponent=0.22, tau0=0.019),
-    RetardationPowerLaw(**MODULI, exponent=1.6, tau0=0.019),
-    RelaxationPowerLaw(**MODULI, exponent=0.6, tau0=1e-3),
-    FractionalZener(**MODULI, order=0.4, tau0=1e-3),
+    vt.RetardationPowerLaw(**MODULI, exponent=0.22, tau0=0.019),
+    vt.RetardationPowerLaw(**MODULI, exponent=1.6, tau0=0.019),
+    vt.RelaxationPowerLaw(**MODULI, exponent=0.6, tau0=1e-3),
+    vt.FractionalZener(**MODULI, order=0.4, tau0=1e-3),
 ]
 NAMES = ["standard", "prony", "broad", "narrow", "relaxation", "fractional"]
 solids = pytest.mark.parametrize("material", SOLIDS, ids=NAMES)
@@ -37,7 +30,7 @@ SPEEDS = [1e-3, 0.3, 20.0, 1e5]
 
 
 def narrow(exponent, modulus_ratio):
-    return RetardationPowerLaw(
+    return vt.RetardationPowerLaw(
         rubbery_modulus=1e6,
         glassy_modulus=1e6 / modulus_ratio,
         exponent=exponent,
@@ -120,7 +113,7 @@ def test_amplification_rises_from_one_to_the_ratio_of_the_moduli(theory, materia
 
 @theories
 def test_an_elastic_crack_takes_the_work_of_adhesion_at_any_speed(theory):
-    solid = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    solid = vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
     np.testing.assert_array_equal(theory.amplification([0, 1e-3, 1e9], material=solid), 1)
 
 

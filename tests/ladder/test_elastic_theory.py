@@ -119,6 +119,8 @@ def test_dmt_force_is_the_derivative_of_its_energy():
     found = dmt.contact_radius_at_force(dmt.force(a, **BEAD), **BEAD)
     np.testing.assert_allclose(found, a, rtol=1e-6)
     np.testing.assert_allclose(found[2:], a[2:], rtol=1e-12)
+    end = -dmt.pull_off_force(radius=R, work_of_adhesion=w)
+    assert dmt.contact_radius_at_force(end, **BEAD) == 0
 
 
 def test_bradley_force_is_the_integral_of_the_traction():

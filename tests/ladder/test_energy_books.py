@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dimensionless import ELASTIC, SOLID, power_law
-from viscotack.model.geometry import Cone, FlatPunch, Layer
+from dimensionless import ELASTIC, SOLID, power_law, punch
+from viscotack.model.geometry import Cone
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.model.traction import Exponential
@@ -24,20 +24,6 @@ def sphere(*moves, tabor=0.5, material=ELASTIC, **more):
     )
 
 
-def punch(*moves, material=ELASTIC, stiffness=None):
-    return Groups(
-        tabor=None,
-        cohesion=0.05,
-        geometry=FlatPunch(64.85),
-        body=Layer(3.24),
-        material=material,
-        start=AtForce(0.5),
-        rate=None,
-        moves=moves,
-        stiffness=stiffness,
-    )
-
-
 def run(groups, **options):
     return solve(groups, accuracy=0.01, **({"estimate_error": False} | options))
 
@@ -45,7 +31,13 @@ def run(groups, **options):
 PRESSED = {
     "sphere": sphere(*LOOP, stiffness=0.1),
     "cone": sphere(*LOOP, stiffness=0.1, geometry=Cone(1.0), tabor=1.0),
-    "punch": punch(Approach(1.0, AtForce(1.0)), Retract(1.0, AtForce(0.5)), stiffness=0.1),
+    "punch": punch(
+        AtForce(0.5),
+        Approach(1.0, AtForce(1.0)),
+        Retract(1.0, AtForce(0.5)),
+        material=ELASTIC,
+        stiffness=0.1,
+    ),
     "held load": sphere(LoadTo(3.0, 1.0), *LOOP, stiffness=0.1, material=SOLID),
     "held depth": sphere(
         Dwell(1.0, hold="depth"), Retract(5.0, AtDepth(-3.0)), stiffness=0.5, material=SOLID

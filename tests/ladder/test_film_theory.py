@@ -41,11 +41,11 @@ def test_a_thin_film_pulls_off_at_two_or_three_pi_r_dg(base, thickness):
 
 @pytest.mark.slow
 def test_the_thickness_of_a_half_space_is_that_at_which_the_force_differs_by_the_tolerance():
-    for shape, base in ((BALL, SQUEEZED), (Cone(1.0), BASES[2])):
-        whole = film.pull_off(shape=shape, body=HalfSpace(), **UNITS).force
-        b = film.half_space_thickness(shape=shape, base=base, tolerance=0.1, **UNITS)
-        force = film.pull_off(shape=shape, body=Layer(b, base), **UNITS).force
-        assert abs(force / whole - 1) == pytest.approx(0.1, rel=1e-3)
+    cone, base = Cone(1.0), BASES[2]
+    whole = film.pull_off(shape=cone, body=HalfSpace(), **UNITS).force
+    b = film.half_space_thickness(shape=cone, base=base, tolerance=0.1, **UNITS)
+    force = film.pull_off(shape=cone, body=Layer(b, base), **UNITS).force
+    assert abs(force / whole - 1) == pytest.approx(0.1, rel=1e-3)
     assert film.half_space_thickness(shape=BALL, base=Frictionless(), tolerance=0.5, **UNITS) == 0
     with pytest.raises(vt.InputError, match="tolerance must lie between"):
         film.half_space_thickness(shape=BALL, base=SQUEEZED, tolerance=0.0, **UNITS)

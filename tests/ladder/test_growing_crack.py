@@ -26,18 +26,13 @@ from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
 
 REST = LennardJones(1.0, 1.0)
 POWER = GentSchultz(1, 1, 1.0, 0.5)
-solids = pytest.mark.parametrize("solid", [ELASTIC, SOLID], ids=["elastic", "solid"])
 
 
-@solids
-def test_without_growth_the_crack_is_that_of_the_law_at_rest(solid):
-    grown = SteadyCrack(solid, GentSchultz(1, 1, 1e8, 1.0))
-    speed = np.array([0.1, 1.0, 10.0])
-    plain = np.asarray(SteadyCrack(solid, REST).amplification(speed))
-    np.testing.assert_allclose(grown.amplification(speed), plain, rtol=2e-4)
-    np.testing.assert_array_equal(
-        grown.amplification(-speed), SteadyCrack(solid, REST).amplification(-speed)
-    )
+def test_without_growth_the_crack_is_that_of_the_law_at_rest():
+    grown, rest = SteadyCrack(SOLID, GentSchultz(1, 1, 1e8, 1.0)), SteadyCrack(SOLID, REST)
+    speed = np.array([0.1, 10.0])
+    np.testing.assert_allclose(grown.amplification(speed), rest.amplification(speed), rtol=2e-4)
+    np.testing.assert_array_equal(grown.amplification(-speed), rest.amplification(-speed))
 
 
 def test_a_little_growth_adds_the_heat_of_the_crack_at_rest():
@@ -61,9 +56,8 @@ def test_in_an_elastic_solid_the_energy_is_work_of_adhesion_and_heat_of_the_inte
     )
 
 
-@solids
-def test_a_finer_mesh_confirms_the_amplification(solid):
-    usual = SteadyCrack(solid, POWER)
+def test_a_finer_mesh_confirms_the_amplification():
+    usual = SteadyCrack(SOLID, POWER)
     grid = _mesh.mesh(1.0, 3e4 / usual.modes.instantaneous, refined=2.0)
     fine = _grown.Grown(grid, _start.pinned(REST), usual.modes, POWER, _start.elastic(REST, grid))
     speed = np.array([0.1, 3.0])
@@ -127,17 +121,15 @@ _vanished.terminal = True
     ("solid", "tabor", "depth", "rate", "law", "within"),
     [
         (ELASTIC, 3.24, 10.0, 1.0, GentSchultz(1, 1, 1.0, 0.5), 0.03),
-        pytest.param(
-            *(SOLID, 10.0, 60.0, 30.0, GentSchultz(1, 1, 10.0, 0.5), 0.015), marks=pytest.mark.slow
-        ),
         (SOLID, 10.0, 60.0, 30.0, Eyring(1, 1, 0.1, 0.2), 0.015),
     ],
-    ids=["elastic", "power", "bonds"],
+    ids=["elastic", "bonds"],
 )
 def test_simulation_and_crack_agree(solid, tabor, depth, rate, law, within):
     groups = Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate, traction=law)
     answer = vt.crack_contact(groups)
-    simulated = pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False))
+    result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
+    simulated = pull_off_force(result)
     assert answer.pull_off_force == pytest.approx(simulated, rel=within, abs=0)
     assert abs(answer.pull_off_force / simulated - 1) < answer.band
     # growth matters: the law at rest has another force
@@ -201,11 +193,11 @@ def lattice():
 
 @pytest.mark.slow
 def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own(lattice):
-    n = np.array([0.42, 0.33, 0.57])
-    v0 = reference_speed([0.2, 2.5, 0.12], 1.0, n)
-    given = {"radius": np.full(3, 4.0), "rate": np.full(3, 5.0), "tabor": np.full(3, 20.0)}
+    n = np.array([0.42, 0.57])
+    v0 = reference_speed([0.2, 2.5], 1.0, n)
+    given = {"radius": np.full(2, 4.0), "rate": np.full(2, 5.0), "tabor": np.full(2, 20.0)}
     together = recede(lattice.edges(v0, n), profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
-    for i in range(3):
+    for i in range(2):
         crack = SteadyCrack(SOLID, GentSchultz(1, 1, float(v0[i]), float(n[i])))
         one = {name: values[:1] for name, values in given.items()}
         alone = recede(crack, profile_of(vt.Sphere(1.0)), **one).force.min()

@@ -101,33 +101,23 @@ def test_a_rigid_sphere_pulls_off_with_bradleys_force_and_the_growth_of_its_spee
         assert result.energy_residual < 5e-3
 
 
-@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
-def test_slow_or_weak_growth_is_the_law_at_rest(material):
-    plain = pull_off_force(unloaded(LennardJones(1, 1), material=material))
+def test_slow_or_weak_growth_is_the_law_at_rest():
+    plain = pull_off_force(unloaded(LennardJones(1, 1), material=SOLID))
     for law in (GentSchultz(1, 1, 1e14, 1.0), Eyring(1, 1, 1.0, 1e-9)):
-        found = pull_off_force(unloaded(law, material=material))
+        found = pull_off_force(unloaded(law, material=SOLID))
         assert found == pytest.approx(plain, rel=5e-4, abs=0)
 
 
 # --- energy, order, stability
 
 
-@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
-def test_energy_is_conserved_with_the_heat_of_the_interface(material):
-    result = unloaded(
-        GentSchultz(1, 1, 1.0, 0.5), material=material, until="detached", accuracy=5e-3
-    )
+def test_energy_is_conserved_with_the_heat_of_the_interface():
+    law = GentSchultz(1, 1, 1.0, 0.5)
+    result = unloaded(law, material=SOLID, until="detached", accuracy=5e-3)
     energy = result.energy
     assert np.all(np.diff(energy.interface_heat) >= 0) and energy.interface_heat[-1] > 0
-    spent = (
-        energy.elastic
-        + energy.interface
-        + energy.spring
-        + energy.heat
-        + energy.interface_heat
-        + energy.jumps
-        + energy.transfer
-    )
+    spent = energy.elastic + energy.interface + energy.spring + energy.heat
+    spent = spent + energy.interface_heat + energy.jumps + energy.transfer
     missing = energy.drive - (spent - spent[0])
     assert np.max(np.abs(missing)) < 2e-3 * energy.interface_heat[-1]
     assert result.energy_residual < 1e-3
@@ -165,6 +155,6 @@ def test_steps_are_of_second_order():
 def test_a_finer_run_confirms_the_stated_error():
     law = GentSchultz(1, 1, 1.0, 0.5)
     usual = unloaded(law, tabor=2.0, depth=5.0, estimate_error=True)
-    fine = pull_off_force(unloaded(law, tabor=2.0, depth=5.0, accuracy=4e-4))
+    fine = pull_off_force(unloaded(law, tabor=2.0, depth=5.0, accuracy=6e-4))
     off = abs(pull_off_force(usual) / fine - 1)
     assert off < usual.error_estimate["force"] < 1e-2

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dimensionless import ELASTIC, SOLID
-from viscotack.model.geometry import FlatPunch, Layer
-from viscotack.model.problem import Groups
+from dimensionless import ELASTIC, SOLID, punch
+from dimensionless import sphere as of_solid
 from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
 from viscotack.result import load, save
 from viscotack.result.cycles import cycle_rows, cycles
@@ -19,10 +18,8 @@ from viscotack.simulate.crack_contact import crack_contact
 pytestmark = pytest.mark.march
 
 
-def sphere(start, *moves, rate=None, tabor=0.5, material=ELASTIC, stiffness=None):
-    return Groups(
-        tabor=tabor, material=material, start=start, rate=rate, moves=moves, stiffness=stiffness
-    )
+def sphere(start, *moves, tabor=0.5, material=ELASTIC, **more):
+    return of_solid(start, *moves, tabor=tabor, material=material, **more)
 
 
 def only_cycle(groups, accuracy=0.01):
@@ -31,15 +28,11 @@ def only_cycle(groups, accuracy=0.01):
 
 
 LOOP = (Approach(1.0, AtForce(4.0)), Retract(1.0, AtForce(2.0)))
-PUNCH = Groups(
-    tabor=None,
-    cohesion=0.05,
-    geometry=FlatPunch(64.85),
-    body=Layer(3.24),
+PUNCH = punch(
+    AtForce(0.5),
+    Approach(1.0, AtForce(1.0)),
+    Retract(1.0, AtForce(0.5)),
     material=ELASTIC,
-    start=AtForce(0.5),
-    rate=None,
-    moves=(Approach(1.0, AtForce(1.0)), Retract(1.0, AtForce(0.5))),
     stiffness=0.1,
 )
 

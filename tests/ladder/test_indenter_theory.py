@@ -41,14 +41,3 @@ def test_power_laws_have_their_closed_forms(tip):
         exact = getattr(profiles, name)(RADII, **closed)
         found = getattr(indenter, name)(RADII, shape=Unknown(tip), **SOLID)
         np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
-
-
-@pytest.mark.parametrize("tip", [Sphere(1e-3), TIPS[1]], ids=["sphere", "1.5"])
-def test_force_is_the_work_that_depth_takes(tip):
-    """Without adhesion dP/da = 2 E* a dD/da: each new ring is a flat punch."""
-    a, step = 1e-4, 1e-8
-    solid = SOLID | {"work_of_adhesion": 1e-30}
-    force = [float(indenter.force(x, shape=tip, **solid)) for x in (a - step, a + step)]
-    depth = [float(indenter.bare_depth(x, shape=tip)) for x in (a - step, a + step)]
-    slope = (force[1] - force[0]) / (depth[1] - depth[0])
-    assert slope == pytest.approx(2 * SOLID["contact_modulus"] * a, rel=1e-6)

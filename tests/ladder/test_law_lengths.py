@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from dimensionless import ELASTIC, SOLID
-from viscotack.model.problem import Groups
+from dimensionless import ELASTIC, SOLID, sphere
 from viscotack.model.protocol import AtDepth
 from viscotack.model.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
 from viscotack.result.observables import pull_off_force, work_to_pull_off
@@ -29,12 +28,8 @@ LAWS = {
 def pulled(law, tabor, material=ELASTIC, rate=1.0, accuracy=0.005, **options):
     """Return the answer for a sphere that starts and moves in the lengths of its contact."""
     length = tabor + effective_range(law)
-    groups = Groups(
-        tabor=tabor,
-        material=material,
-        start=AtDepth(3 * length),
-        rate=rate * length,
-        traction=law,
+    groups = sphere(
+        AtDepth(3 * length), tabor=tabor, material=material, rate=rate * length, traction=law
     )
     return solve(groups, until="pull-off", accuracy=accuracy, **options)
 
@@ -71,20 +66,15 @@ def test_of_a_law_with_a_scale_of_its_own_only_that_scale_matters():
 
 
 @pytest.mark.march
-@pytest.mark.parametrize(
-    ("decay", "expected"),
-    # converged, at an accuracy of 5e-4; the stronger, the nearer to JKR
-    [(0.25, 1.0102), (0.1, 1.0019)],
-)
-def test_a_short_strong_law_pulls_off_near_jkr(decay, expected):
-    result = pulled(Exponential(1.0, 1.0, decay), 3.0)
-    estimate = result.error_estimate["force"]
-    assert pull_off_force(result) == pytest.approx(expected, rel=max(estimate, 1e-3))
+def test_a_short_strong_law_pulls_off_near_jkr():
+    # converged, at an accuracy of 5e-4
+    result = pulled(Exponential(1.0, 1.0, 0.1), 3.0, estimate_error=False)
+    assert pull_off_force(result) == pytest.approx(1.0019, rel=1e-3)
 
 
 @pytest.mark.march
 def test_a_sharp_step_has_the_force_of_maugis():
-    result = pulled(Dugdale(1.0, 1.0, fall=1e-3), 1.0)
+    result = pulled(Dugdale(1.0, 1.0, fall=1e-3), 1.0, estimate_error=False)
     case = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0, "strength": 1.0}
     expected = maugis.pull_off_force(**case) / (1.5 * np.pi)
     assert pull_off_force(result) == pytest.approx(expected, rel=1.5e-3)
@@ -93,7 +83,9 @@ def test_a_sharp_step_has_the_force_of_maugis():
 
 @pytest.mark.march
 def test_a_table_that_ends_with_a_corner_is_between_jkr_and_derjaguin():
-    weak = pull_off_force(pulled(TABLE, 0.05 * effective_range(TABLE)))
-    strong = pull_off_force(pulled(TABLE, 8 * effective_range(TABLE)))
+    weak, strong = (
+        pull_off_force(pulled(TABLE, part * effective_range(TABLE), estimate_error=False))
+        for part in (0.05, 8)
+    )
     assert 1 < strong < 1.02
     assert 1.31 < weak < 4 / 3

@@ -54,9 +54,9 @@ def test_hats_move_the_surface_as_their_hankel_transforms_say(thickness, base):
 
 
 @pytest.mark.parametrize("base", BASES, ids=repr)
-@pytest.mark.parametrize("thickness", [0.05, 0.3, 300.0])
+@pytest.mark.parametrize("thickness", [0.05, 0.3])
 def test_the_compliance_has_a_stiffness(thickness, base):
-    for edge, finest, outer in ((1.5, 0.003, 6.0), (0.4, 0.01, 20.0), (4.0, 0.001, 10.0)):
+    for edge, finest, outer in ((0.4, 0.01, 20.0), (4.0, 0.003, 10.0)):
         # what is squeezed out needs nodes that tell thicknesses apart
         widest = 0.3 * thickness if base.foundation < 0.2 else edge / 24
         nodes = graded(edge, min(finest, thickness / 10), outer, growth=0.07, widest=widest)

@@ -23,7 +23,6 @@ SPEEDS = np.geomspace(0.1, 1e3, 13)
     "known, changes",
     [
         (SOLID, {"rubbery_modulus": 1.2e6}),
-        (SOLID, {"glassy_modulus": 6e7}),
         (SOLID, {"exponent": 0.55, "tau0": 2e-2}),
         (ARMS, {"branches": [(2.8e6, 1e-4), (1.2e6, 1e-2), (2.5e5, 1.0)]}),
     ],

@@ -4,23 +4,15 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.model.geometry import PowerLawProfile
-from viscotack.model.problem import Groups
-from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
-from viscotack.model.traction import LennardJones
-from viscotack.result.observables import (
-    contact_radius_at_pull_off,
-    pull_off_force,
-    work_to_pull_off,
-)
-from viscotack.simulate import Settings, solve
+from viscotack.simulate import Settings
 from viscotack.simulate.contacts.profile import ProfileContact
 from viscotack.theory import profiles
 
 pytestmark = pytest.mark.march
 
-LAW = LennardJones(1.0, 1.0)
+LAW = vt.LennardJones(1.0, 1.0)
 # what the default setting promises of the pull-off force
 DEFAULT = 2e-3
 exponents = pytest.mark.parametrize("exponent", [1.0, 1.5, 6.0])
@@ -33,18 +25,18 @@ def units(exponent):
 
 
 def tip(exponent, tabor, *, start, material=ELASTIC, rate=1.0, **others):
-    return Groups(
+    return vt.Groups(
         tabor=tabor,
         material=material,
         start=start,
         rate=rate,
-        geometry=PowerLawProfile(1 / exponent, exponent),
+        geometry=vt.PowerLawProfile(1 / exponent, exponent),
         **others,
     )
 
 
 def pull(groups, **settings):
-    return pull_off_force(solve(groups, until="pull-off", estimate_error=False, **settings))
+    return vt.pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False, **settings))
 
 
 # --- identities -----------------------------------------------------------------------------
@@ -53,18 +45,18 @@ def pull(groups, **settings):
 @pytest.mark.parametrize(
     ("start", "moves"),
     [
-        (AtRadius(1.8), ()),
-        (Apart(8.0), (Approach(30.0, AtForce(1.0)),)),
+        (vt.AtRadius(1.8), ()),
+        (vt.Apart(8.0), (vt.Approach(30.0, vt.AtForce(1.0)),)),
     ],
     ids=["radius", "approach"],
 )
 def test_the_square_is_the_sphere(start, moves):
     case = dict(tabor=2.0, material=SOLID, start=start, rate=30.0, moves=moves)
-    sphere = solve(Groups(**case), estimate_error=False)
-    square = solve(Groups(**case, geometry=PowerLawProfile(0.5, 2)), estimate_error=False)
+    sphere = vt.solve(vt.Groups(**case), estimate_error=False)
+    square = vt.solve(vt.Groups(**case, geometry=vt.PowerLawProfile(0.5, 2)), estimate_error=False)
     assert square.status == sphere.status
     # round-off may decide on a step, and a step is worth about this much
-    for number in (pull_off_force, work_to_pull_off, contact_radius_at_pull_off):
+    for number in (vt.pull_off_force, vt.work_to_pull_off, vt.contact_radius_at_pull_off):
         assert number(square) == pytest.approx(number(sphere), rel=1e-4, abs=0)
     assert square.force[:5] == pytest.approx(sphere.force[:5], rel=1e-9, abs=1e-9)
 
@@ -80,8 +72,10 @@ def test_the_gap_of_jkr_opens_at_its_edge_like_a_crack(exponent):
 
 @exponents
 def test_energy_audit_closes_for_every_shape(exponent):
-    start = AtForce(0.5) if exponent > 1 else AtDepth(10.0)
-    result = solve(tip(exponent, 3.0, start=start, material=SOLID, rate=30.0), estimate_error=False)
+    start = vt.AtForce(0.5) if exponent > 1 else vt.AtDepth(10.0)
+    result = vt.solve(
+        tip(exponent, 3.0, start=start, material=SOLID, rate=30.0), estimate_error=False
+    )
     assert result.energy_residual is not None and result.energy_residual < 1e-3
 
 
@@ -102,13 +96,13 @@ def test_a_stiff_tip_pulls_off_as_bradley_has_it(exponent):
         return scale * sum(quad(share, *part, limit=200)[0] for part in ((0, 9), (9, np.inf)))
 
     most = max(force(nearest) for nearest in np.linspace(0.79, 1.21, 85))
-    found = pull(tip(exponent, tabor, start=AtForce(0.0)))
+    found = pull(tip(exponent, tabor, start=vt.AtForce(0.0)))
     assert found == pytest.approx(most, rel=DEFAULT, abs=0)
 
 
 def test_a_wide_elastic_cone_pulls_off_near_jkr():
     # wide beside its zone: a balance that ends early seemed to create energy in the first steps
-    wide = AtRadius(7.0 / np.cbrt(np.pi))
+    wide = vt.AtRadius(7.0 / np.cbrt(np.pi))
     jkr = profiles.pull_off(**units(1.0)).force / (1.5 * np.pi)
     assert pull(tip(1.0, 13.0, start=wide, rate=1e4)) == pytest.approx(-jkr, rel=1e-2, abs=0)
 
@@ -120,14 +114,17 @@ def test_a_wide_elastic_cone_pulls_off_near_jkr():
 )
 def test_a_soft_tip_pulls_off_as_jkr_has_it(exponent, tabor, beyond):
     jkr = -float(profiles.pull_off(**units(exponent)).force) / (1.5 * np.pi)
-    found = pull(tip(exponent, tabor, start=AtForce(0.0)))
+    found = pull(tip(exponent, tabor, start=vt.AtForce(0.0)))
     assert found == pytest.approx(jkr, rel=beyond, abs=0)
 
 
 @pytest.mark.slow
 def test_a_cone_tends_to_the_cone_of_jkr_with_the_tabor_number():
     jkr = -float(profiles.pull_off(**units(1.0)).force) / (1.5 * np.pi)
-    errors = [abs(pull(tip(1.0, mu, start=AtForce(-2.0))) / jkr - 1) for mu in (1.0, 3.0, 10.0)]
+    errors = [
+        abs(pull(tip(1.0, mu, start=vt.AtForce(-2.0)), accuracy=4e-3) / jkr - 1)
+        for mu in (1.0, 3.0, 10.0)
+    ]
     assert errors[0] < 0.3 and errors[1] < 0.25 * errors[0] and errors[2] < 0.25 * errors[1]
     assert errors[2] < 0.8e-2
 
@@ -135,7 +132,7 @@ def test_a_cone_tends_to_the_cone_of_jkr_with_the_tabor_number():
 @exponents
 def test_a_relaxed_contact_is_as_deep_and_wide_as_jkr_has_it(exponent):
     contact = ProfileContact(10.0, LAW, exponent)
-    found = contact.relaxed(AtForce(0.2), Settings.for_accuracy(DEFAULT))
+    found = contact.relaxed(vt.AtForce(0.2), Settings.for_accuracy(DEFAULT))
     a = contact.jkr_radius_at_force(0.2 * 1.5 * np.pi)
     assert found.edge == pytest.approx(a, rel=6e-3, abs=0)
     assert found.depth == pytest.approx(contact.jkr_depth(a), rel=1.5e-2, abs=0)
@@ -145,7 +142,7 @@ def test_a_relaxed_contact_is_as_deep_and_wide_as_jkr_has_it(exponent):
 
 
 def test_the_error_of_a_cone_falls_with_the_accuracy():
-    groups = tip(1.0, 0.3, start=AtDepth(1.5), material=SOLID, rate=3.0)
+    groups = tip(1.0, 0.3, start=vt.AtDepth(1.5), material=SOLID, rate=3.0)
     coarse, fine, finest = (pull(groups, accuracy=x) for x in (4e-3, 1e-3, 1.25e-4))
     # second order: a quarter of the accuracy, a quarter of the error
     assert abs(fine - finest) < 0.4 * abs(coarse - finest)

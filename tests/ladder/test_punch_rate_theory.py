@@ -7,34 +7,25 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+import viscotack as vt
 from dimensionless import last_slope, standard
 from reference_data import reference
-from viscotack.model.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
-from viscotack.model.traction import LennardJones
 from viscotack.theory import greenwood, punch
 from viscotack.theory.crack.law import THEORIES
-from viscotack.theory.punch import (
-    Bonded,
-    Frictionless,
-    Pad,
-    crossover,
-    curve,
-    rate,
-    unloading,
-)
+from viscotack.theory.punch import Pad, crossover, curve, rate, unloading
 
 MODULI = dict(rubbery_modulus=1e6, glassy_modulus=2e7, poisson_ratio=0.5)
-SLS = StandardSolid(**MODULI, tau0=1e-2)
+SLS = vt.StandardSolid(**MODULI, tau0=1e-2)
 SOLIDS = [
-    Prony(rubbery_modulus=1e6, branches=((4e6, 1e-2), (1.5e7, 1e-4)), poisson_ratio=0.5),
-    RetardationPowerLaw(**MODULI, exponent=0.6, tau0=1e-2),
+    vt.Prony(rubbery_modulus=1e6, branches=((4e6, 1e-2), (1.5e7, 1e-4)), poisson_ratio=0.5),
+    vt.RetardationPowerLaw(**MODULI, exponent=0.6, tau0=1e-2),
 ]
 solids = pytest.mark.parametrize("material", SOLIDS, ids=["prony", "power law"])
 theories = pytest.mark.parametrize("theory", THEORIES)
 INTERFACE = dict(contact_modulus=4e6 / 3, work_of_adhesion=0.08, strength=9e4)
 LAYER = dict(contact_modulus=4e6 / 3, work_of_adhesion=0.08)
-RUBBER = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
-FREE = Frictionless()
+RUBBER = vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+FREE = vt.Frictionless()
 PAD = Pad(**INTERFACE, half_width=5e-3, base=FREE)
 LAW = PAD.crack_law("greenwood", material=SLS)
 
@@ -87,7 +78,7 @@ def test_crack_speed_is_the_inverse_of_the_amplification(theory, material):
 
 def test_surface_energy_is_the_inverse_of_the_pull_off_stress():
     b = np.geomspace(1e-5, 1.0, 12)
-    for base in (FREE, Bonded(poisson_ratio=0.4)):
+    for base in (FREE, vt.Bonded(poisson_ratio=0.4)):
         stress = crossover.pull_off_stress(b, half_width=4e-3, **LAYER, base=base)
         # a ligament of 4 mm under a punch of 5 mm
         found = curve.surface_energy(
@@ -103,7 +94,7 @@ def test_surface_energy_is_the_inverse_of_the_pull_off_stress():
 
 def test_work_of_separation_of_a_rigid_punch_is_the_work_of_adhesion():
     # the rigid limit of Eq. 3.36, second order in the step; the misprint would give 0.974
-    law = LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
+    law = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
     errors = []
     for points in (200, 400, 800):
         # from 3 % inside the equilibrium gap to 1 mm
@@ -123,7 +114,7 @@ def test_work_of_separation_of_a_rigid_punch_is_the_work_of_adhesion():
     [
         (0.2, FREE, 1e-5),
         (5.0, FREE, 8e-3),
-        (1.0, Bonded(poisson_ratio=0.45), 1e-2),
+        (1.0, vt.Bonded(poisson_ratio=0.45), 1e-2),
     ],
 )
 @pytest.mark.parametrize("speed", [1e-6, 1e-2])
@@ -193,7 +184,7 @@ def test_pull_off_is_near_the_simulated_one():
     # depth 1 h0, in units of h0, tau and E0*. Their forces have a finite range and their bulk no
     # time to relax, which this theory leaves out
     energy = 9 * np.sqrt(3) / 16 * 0.05
-    solid = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+    solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
     case = dict(contact_modulus=1.0, work_of_adhesion=energy, strength=0.05)
     a0 = punch.fracture_length(**case)
     pad = Pad(half_width=64.85 * a0, **case, base=FREE)

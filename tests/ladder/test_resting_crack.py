@@ -3,35 +3,14 @@
 import numpy as np
 import pytest
 
-from dimensionless import standard
-from viscotack import (
-    Apart,
-    Approach,
-    AtDepth,
-    AtForce,
-    Dwell,
-    Groups,
-    LoadTo,
-    MoveTo,
-    OutOfRange,
-    Retract,
-    crack_contact,
-    pull_off_force,
-    solve,
-)
+import viscotack as vt
+from dimensionless import sphere, standard
 from viscotack.theory.crack.contact import history
 
 
-def pressed(*moves, rate=20.0, tabor=10.0, k=0.1, speed=20.0, **more):
-    approach = Approach(speed, AtDepth(10 * tabor))
-    return Groups(
-        tabor=tabor,
-        material=standard(k),
-        start=Apart(30.0),
-        moves=(approach, *moves),
-        rate=rate,
-        **more,
-    )
+def pressed(*moves, rate=20.0, tabor=10.0, k=0.1):
+    approach = vt.Approach(20.0, vt.AtDepth(10 * tabor))
+    return sphere(vt.Apart(30.0), approach, *moves, tabor=tabor, material=standard(k), rate=rate)
 
 
 @pytest.mark.parametrize(
@@ -39,34 +18,28 @@ def pressed(*moves, rate=20.0, tabor=10.0, k=0.1, speed=20.0, **more):
     [(12.0, "drive", None), (1e5, "depth", None), (1e3, "force", None), (1e5, "drive", 0.1)],
 )
 def test_a_relaxed_contact_rests(tabor, hold, stiffness):
-    rest = Groups(
+    rest = sphere(
+        vt.AtForce(2.0),
+        vt.Dwell(3.0, hold),
         tabor=tabor,
         material=standard(0.05),
-        start=AtForce(2.0),
-        moves=(Dwell(3.0, hold),),
-        rate=None,
         stiffness=stiffness,
     )
-    found = crack_contact(rest)
+    found = vt.crack_contact(rest)
     for series in (found.force, found.contact_radius, found.depth):
         np.testing.assert_allclose(series, series[0], rtol=1e-9)
     assert found.force[0] == pytest.approx(2.0, rel=1e-9)
 
 
-@pytest.mark.parametrize(("start", "stiffness"), [(AtForce(6.0), None), (AtForce(-0.7), 0.1)])
+@pytest.mark.parametrize(("start", "stiffness"), [(vt.AtForce(6.0), None), (vt.AtForce(-0.7), 0.1)])
 def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
-    at_once = Groups(tabor=30.0, material=standard(), start=start, rate=300.0, stiffness=stiffness)
-    told = crack_contact(at_once)
-    for moves in ((Dwell(1e-3),), (Dwell(5.0, "force"), Dwell(0.3))):
-        found = crack_contact(
-            Groups(
-                tabor=30.0,
-                material=standard(),
-                start=start,
-                moves=moves,
-                rate=300.0,
-                stiffness=stiffness,
-            )
+    at_once = vt.Groups(
+        tabor=30.0, material=standard(), start=start, rate=300.0, stiffness=stiffness
+    )
+    told = vt.crack_contact(at_once)
+    for moves in ((vt.Dwell(1e-3),), (vt.Dwell(5.0, "force"), vt.Dwell(0.3))):
+        found = vt.crack_contact(
+            sphere(start, *moves, tabor=30.0, material=standard(), rate=300.0, stiffness=stiffness)
         )
         assert found.pull_off_force == pytest.approx(told.pull_off_force, rel=1e-8)
         assert found.band == pytest.approx(told.band, rel=1e-6)
@@ -78,26 +51,26 @@ def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
 
 def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():
     forces = [
-        crack_contact(pressed(Dwell(duration), rate=100.0, tabor=20.0)).pull_off_force
-        for duration in (1e-3, 0.1, 10.0)
+        vt.crack_contact(pressed(vt.Dwell(duration), rate=100.0, tabor=20.0)).pull_off_force
+        for duration in (1e-3, 10.0)
     ]
-    assert np.all(np.diff(forces) > 0)
+    assert forces[1] > forces[0]
 
 
 @pytest.mark.parametrize(
     "moves",
     [
-        (Dwell(0.1),),
-        (Retract(5.0, AtDepth(40.0)), Approach(100.0, AtDepth(100.0))),
+        (vt.Dwell(0.1),),
+        (vt.Retract(5.0, vt.AtDepth(40.0)), vt.Approach(100.0, vt.AtDepth(100.0))),
     ],
     ids=["dwell", "reversal"],
 )
 def test_shorter_steps_neither_chatter_nor_tell_another_force(monkeypatch, moves):
     case = pressed(*moves, rate=2.0)
-    usual = crack_contact(case)
+    usual = vt.crack_contact(case)
     monkeypatch.setattr(history, "_TRAVEL", history._TRAVEL / 2)
     monkeypatch.setattr(history, "_DRIVE", history._DRIVE / 2)
-    finer = crack_contact(case)
+    finer = vt.crack_contact(case)
     assert finer.pull_off_force == pytest.approx(usual.pull_off_force, rel=2e-3)
     for found in (usual, finer):
         way = np.sign(found.edge_speed)
@@ -110,22 +83,23 @@ def test_steps_are_of_second_order(monkeypatch):
     for factor in (1, 2, 4):
         monkeypatch.setattr(history, "_TRAVEL", 0.016 / factor)
         monkeypatch.setattr(history, "_DRIVE", 0.14 / factor)
-        forces.append(crack_contact(pressed(Dwell(1.0))).pull_off_force)
+        forces.append(vt.crack_contact(pressed(vt.Dwell(1.0))).pull_off_force)
     assert abs(forces[1] / forces[2] - 1) < 2e-4
     assert abs(forces[0] - forces[1]) > 2.5 * abs(forces[1] - forces[2])
 
 
 @pytest.mark.parametrize("stiffness", [None, 0.1])
 def test_a_held_tension_equals_the_given_one(stiffness):
-    held = Groups(
+    held = sphere(
+        vt.AtForce(-0.5),
+        vt.LoadTo(-1.5, 0.2),
+        vt.Dwell(0.5, "force"),
         tabor=12.0,
         material=standard(0.2),
-        start=AtForce(-0.5),
-        moves=(LoadTo(-1.5, 0.2), Dwell(0.5, "force")),
         rate=30.0,
         stiffness=stiffness,
     )
-    found = crack_contact(held)
+    found = vt.crack_contact(held)
     assert found.force[0] == pytest.approx(-0.5, rel=1e-9)
     np.testing.assert_allclose(found.force[found.move == 1], -1.5, rtol=1e-9)
 
@@ -133,32 +107,23 @@ def test_a_held_tension_equals_the_given_one(stiffness):
 def test_a_contact_that_lets_go_where_it_starts_is_answered_where_zones_are_short():
     # smaller than the glassy contact at pull-off: the tension is largest before the edge has moved
     case = dict(tabor=1e3, material=standard(0.05), rate=1e8)
-    moves = (Approach(1e4, AtForce(20.0)), Dwell(1e3))
-    after = crack_contact(Groups(start=Apart(20.0), moves=moves, **case))
-    rested = crack_contact(Groups(start=AtDepth(8438.61), **case))
+    moves = (vt.Approach(1e4, vt.AtForce(20.0)), vt.Dwell(1e3))
+    after = vt.crack_contact(vt.Groups(start=vt.Apart(20.0), moves=moves, **case))
+    rested = vt.crack_contact(vt.Groups(start=vt.AtDepth(8438.61), **case))
     assert after.zones > 10 and rested.zones > 10
     assert 0.9 / 0.05 < after.pull_off_force < rested.pull_off_force < 1 / 0.05
-    with pytest.raises(OutOfRange, match="the preload is too small for this rate"):
-        crack_contact(Groups(10.0, standard(0.03), AtDepth(60.0), 1e5))
+    with pytest.raises(vt.OutOfRange, match="the preload is too small for this rate"):
+        vt.crack_contact(vt.Groups(10.0, standard(0.03), vt.AtDepth(60.0), 1e5))
 
 
 @pytest.mark.parametrize(
     ("case", "words"),
     [
         (pressed(tabor=100.0), "tabor is 100, verified from 8 to 60"),
-        (pressed(MoveTo(50.0, 1.0)), "moves of type MoveTo were not compared"),
+        (pressed(vt.MoveTo(50.0, 1.0)), "moves of type MoveTo were not compared"),
     ],
 )
 def test_a_history_of_a_kind_that_was_not_simulated_has_a_note(case, words):
-    found = crack_contact(case)
+    found = vt.crack_contact(case)
     assert not found.inside
     assert words in found.why
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("rate", [4.0, 400.0])
-def test_turns_after_an_approach_are_those_of_a_simulation(rate):
-    case = pressed(rate=rate)
-    found = crack_contact(case)
-    simulated = pull_off_force(solve(case, accuracy=5e-3, estimate_error=False))
-    assert found.pull_off_force == pytest.approx(simulated, rel=found.band + 5e-3)

@@ -8,8 +8,6 @@ from numpy.testing import assert_allclose
 from scipy.constants import gas_constant
 
 from reference_data import VALUES
-from viscotack.model.materials import StandardSolid
-from viscotack.model.materials.passport import Evidence, Passport
 from viscotack.model.materials.shift import (
     WLF,
     Arrhenius,
@@ -76,23 +74,6 @@ def test_the_error_of_a_table_is_that_of_its_rows_and_of_its_zero():
     assert table.deviation(260.0, 280.0) == pytest.approx(0.5, rel=1e-12)
     assert table.deviation(280.0, 280.0) == 0
     assert TabulatedShift(ROOM, (260.0, ROOM), (3.0, 0.0)).deviation(260.0, ROOM) == 0
-
-
-def test_the_interval_of_a_time_grows_with_the_error_of_its_shift():
-    table = TabulatedShift(ROOM, (260.0, ROOM), (3.0, 0.0), (0.1, 0.0))
-    evidence = Evidence(numbers=9, constants=3, level=0.9, intervals=(("tau0", 0.8, 1.25),))
-    passport = Passport(
-        name="x",
-        material=StandardSolid(rubbery_modulus=1, glassy_modulus=2, tau0=1.0, poisson_ratio=0.5),
-        temperature=ROOM,
-        shift=table,
-        evidence=evidence,
-    )
-    assert passport.shift_deviation(260.0) == pytest.approx(0.1, rel=1e-15)
-    moved = passport.moved_to(260.0)
-    ((_, low, high),) = moved.evidence.intervals
-    half = np.hypot(np.log(1.25), 1.6448536269514722 * 0.1 * np.log(10))
-    assert_allclose([low, high], 1000 * np.exp([-half, half]), rtol=1e-9)
 
 
 # ---- rung 2: limits ----------------------------------------------------------------------------

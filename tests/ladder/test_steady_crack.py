@@ -108,21 +108,20 @@ def test_a_crack_that_closes_is_the_same_with_the_memory_of_the_openings():
 
 
 def test_finer_meshes_change_less_than_the_stated_error():
-    for law in (REDUCED, Exponential(1.0, 1.0, 0.25)):
-        solid = standard(0.1)
-        crack = SteadyCrack(solid, law)
-        length = float(_start.effective_range(law)) ** 2
-        mesh = _mesh.mesh(length, 3e5 * length, refined=2.0)
-        start = _start.elastic(law, mesh)
-        for sign in (1, -1):
-            fine = _branch.Branch(
-                mesh, _start.pinned(law), crack.modes, start, crack.slow_coefficient, sign
+    law = Exponential(1.0, 1.0, 0.25)
+    crack = SteadyCrack(standard(0.1), law)
+    length = float(_start.effective_range(law)) ** 2
+    mesh = _mesh.mesh(length, 3e5 * length, refined=2.0)
+    start = _start.elastic(law, mesh)
+    for sign in (1, -1):
+        fine = _branch.Branch(
+            mesh, _start.pinned(law), crack.modes, start, crack.slow_coefficient, sign
+        )
+        for speed in (0.1, 2.0):
+            found = fine.at(np.log(speed)).amplification / start.amplification
+            assert crack.amplification(sign * speed) == pytest.approx(
+                found, rel=crack.error(sign * speed)
             )
-            for speed in (0.1, 2.0):
-                found = fine.at(np.log(speed)).amplification / start.amplification
-                assert crack.amplification(sign * speed) == pytest.approx(
-                    found, rel=crack.error(sign * speed)
-                )
 
 
 def test_dugdales_crack_is_greenwoods():
@@ -193,7 +192,7 @@ def test_a_power_law_is_found_at_all_speeds_with_a_stated_error():
         rubbery_modulus=1e6, glassy_modulus=1e8, exponent=0.6, tau0=1.0, poisson_ratio=0.5
     )
     crack = SteadyCrack(solid, REDUCED)
-    speed = np.geomspace(1e-3, 1e9, 25)
+    speed = np.geomspace(1e-3, 1e9, 13)
     gamma = crack.amplification(speed)
     assert np.all(np.diff(gamma) > 0)
     assert gamma[-1] > 90
@@ -203,7 +202,7 @@ def test_a_power_law_is_found_at_all_speeds_with_a_stated_error():
 @pytest.mark.parametrize(
     ("ratio", "order"),
     [
-        (1e-3, 0.6),
+        (1e-2, 0.6),
         pytest.param(1e-6, 0.9, marks=pytest.mark.slow),
     ],
 )

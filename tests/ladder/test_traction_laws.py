@@ -8,30 +8,22 @@ from scipy.integrate import quad
 from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
-from dimensionless import ELASTIC
+import viscotack as vt
+from dimensionless import ELASTIC, sphere
 from reference_data import VALUES
-from viscotack.model.problem import Groups
-from viscotack.model.protocol import AtDepth
-from viscotack.model.traction import (
-    Dugdale,
-    Exponential,
-    LennardJones,
-    Tabulated,
-    softening,
-)
-from viscotack.result.observables import pull_off
-from viscotack.simulate import Settings, solve
+from viscotack.model.traction import softening
+from viscotack.simulate import Settings
 from viscotack.simulate.contacts.sphere import SphereContact
 from viscotack.theory import maugis
 
 WORK, RANGE = 0.1523, 1.55e-6
-DUGDALE = Dugdale(WORK, RANGE, rise=0.05, fall=0.3)
-EXPONENTIAL = Exponential(WORK, RANGE, decay=0.3)
-TABLE = Tabulated.of_points(
+DUGDALE = vt.Dugdale(WORK, RANGE, rise=0.05, fall=0.3)
+EXPONENTIAL = vt.Exponential(WORK, RANGE, decay=0.3)
+TABLE = vt.Tabulated.of_points(
     np.array([1.2, 1.5, 1.8, 2.1, 3.0, 4.5, 8.0]) * 1e-6,
     [-300e3, -10e3, 60e3, 75e3, 30e3, 4e3, 0.0],
 )
-LENNARD_JONES = LennardJones(WORK, RANGE)
+LENNARD_JONES = vt.LennardJones(WORK, RANGE)
 ALL = [LENNARD_JONES, DUGDALE, EXPONENTIAL, TABLE]
 every_law = pytest.mark.parametrize("law", ALL, ids=["L", "D", "E", "T"])
 laws = pytest.mark.parametrize("law", ALL[1:], ids=["D", "E", "T"])
@@ -90,9 +82,9 @@ def test_the_law_of_lennard_and_jones_has_the_verified_values():
 @pytest.mark.parametrize("wrong", [-0.05, np.nan, "0.05 J/m2"])
 def test_an_impossible_law_is_refused(wrong):
     with pytest.raises(ValueError, match="work_of_adhesion must be"):
-        LennardJones(work_of_adhesion=wrong, equilibrium_gap=1e-6)
+        vt.LennardJones(work_of_adhesion=wrong, equilibrium_gap=1e-6)
     with pytest.raises(ValueError, match="equilibrium_gap must be"):
-        LennardJones(work_of_adhesion=0.05, equilibrium_gap=wrong)
+        vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=wrong)
 
 
 @every_law
@@ -127,7 +119,7 @@ def test_dugdale_tends_to_a_constant_tension_as_its_widths_vanish():
     u = 1 + np.linspace(0, 2, 400_001)
     lost = []
     for width in (0.4, 0.2, 0.1):
-        law = Dugdale(1.0, 1.0, rise=width / 2, fall=width)
+        law = vt.Dugdale(1.0, 1.0, rise=width / 2, fall=width)
         lost.append(np.mean(np.abs(law.traction(u) - (u < 2))) * 2)
     assert np.diff(np.log(lost)) == pytest.approx(-np.log(2), abs=1e-3)
 
@@ -140,14 +132,14 @@ def test_exponential_decays_by_e_in_a_decay_length():
 
 
 def test_a_table_of_a_smooth_law_is_that_law():
-    smooth = Exponential(0.1, 1e-6, decay=0.3)
+    smooth = vt.Exponential(0.1, 1e-6, decay=0.3)
     tail = float(smooth.energy(8e-6)) / -0.1
     assert tail < 1e-8
     error = []
     for number in (50, 100, 200):
         gap = np.linspace(0.7e-6, 8e-6, number)
         traction = np.append(smooth.traction(gap[:-1]), 0.0)
-        law = Tabulated.of_points(gap, traction)
+        law = vt.Tabulated.of_points(gap, traction)
         h = np.linspace(0.75e-6, 7e-6, 1000)
         error.append(np.max(np.abs(law.energy(h) - smooth.energy(h))) / 0.1)
     # a monotone curve is flat at its highest point: second order there, in the energy third
@@ -160,7 +152,7 @@ def test_a_table_may_be_as_short_as_it_likes_before_a_firm_wall(length):
     # the wall, which goes on to gap 0, is worth up to 1e11 times the work of adhesion
     opening = np.array([-0.4, -0.2, 0.0, 0.2, 0.5, 1.0, 1.5])
     traction = 1e5 * np.array([-1e3, -10.0, 0.0, 1.0, 0.8, 0.3, 0.0])
-    law = Tabulated.of_points(RANGE * (1 + length * opening), traction).reduced()
+    law = vt.Tabulated.of_points(RANGE * (1 + length * opening), traction).reduced()
     assert law.energy(1.0) == pytest.approx(-1, rel=1e-12, abs=0)
     of_points = PchipInterpolator(opening, traction)
     strength = 1e5 / float(of_points.integrate(0.0, 1.5))
@@ -168,7 +160,7 @@ def test_a_table_may_be_as_short_as_it_likes_before_a_firm_wall(length):
 
 
 def test_beyond_its_end_a_table_has_nothing_however_steeply_it_ends():
-    law = Tabulated.of_points([0.8, 1.0, 1.5, 2.0, 2.5], [-100.0, 0.0, 1.0, 0.8, 0.0])
+    law = vt.Tabulated.of_points([0.8, 1.0, 1.5, 2.0, 2.5], [-100.0, 0.0, 1.0, 0.8, 0.0])
     end = law.points[-1][0] * law.equilibrium_gap
     assert law.stiffness(0.999 * end) < -0.5
     beyond = np.array([1.0, 1.001, 5.0, 1e4]) * end
@@ -187,15 +179,15 @@ def test_beyond_its_end_a_table_has_nothing_however_steeply_it_ends():
 )
 def test_a_table_that_is_no_law_is_refused(gap, traction, words):
     with pytest.raises(ValueError, match=words):
-        Tabulated.of_points(gap, traction)
+        vt.Tabulated.of_points(gap, traction)
 
 
 @pytest.mark.parametrize(
     ("kind", "wrong", "words"),
     [
-        (Dugdale, dict(rise=0.0), r"rise must lie in \(0, 0.5\]"),
-        (Dugdale, dict(fall=1.5), r"fall must lie in \(0, 1\]"),
-        (Exponential, dict(decay=-1), "decay must be positive"),
+        (vt.Dugdale, dict(rise=0.0), r"rise must lie in \(0, 0.5\]"),
+        (vt.Dugdale, dict(fall=1.5), r"fall must lie in \(0, 1\]"),
+        (vt.Exponential, dict(decay=-1), "decay must be positive"),
     ],
 )
 def test_an_impossible_shape_is_refused(kind, wrong, words):
@@ -222,14 +214,13 @@ def maugis_branch(parameter):
 
 def near_dugdale(parameter):
     """Return the law whose wall gives way by little at this parameter."""
-    return Dugdale(1.0, 1.0, rise=1e-4 * min(1.0, parameter / 0.5) ** 2)
+    return vt.Dugdale(1.0, 1.0, rise=1e-4 * min(1.0, parameter / 0.5) ** 2)
 
 
 @pytest.mark.parametrize(
     ("parameter", "finer"),
     [
         (0.5, 3.0),
-        pytest.param(0.05, 12.0, marks=pytest.mark.slow),
         pytest.param(5.0, 3.0, marks=pytest.mark.slow),
     ],
 )
@@ -243,7 +234,7 @@ def test_relaxed_contacts_of_dugdale_are_those_of_maugis(parameter, finer):
         wanted = share * abs(force[0])
         at = float(np.interp(wanted, force, depth))
         with threadpool_limits(limits=1, user_api="blas"):
-            found = contact.relaxed(AtDepth(at), settings)
+            found = contact.relaxed(vt.AtDepth(at), settings)
         assert found.force == pytest.approx(wanted, rel=0, abs=3e-3 * abs(force[0]))
         exact = float(np.interp(wanted, force, radius))
         assert found.edge / contact.edge_unit == pytest.approx(exact, rel=3e-3, abs=0)
@@ -252,29 +243,29 @@ def test_relaxed_contacts_of_dugdale_are_those_of_maugis(parameter, finer):
 @pytest.mark.parametrize("parameter", [0.05, 0.5, 2.0])
 def test_dugdale_pull_off_is_that_of_maugis(parameter):
     tabor, force, depth, _ = maugis_branch(parameter)
-    result = solve(
-        Groups(
+    result = vt.solve(
+        sphere(
+            vt.AtDepth(float(np.interp(0.8, force, depth))),
             tabor=tabor,
             material=ELASTIC,
-            start=AtDepth(float(np.interp(0.8, force, depth))),
             rate=1.0,
             traction=near_dugdale(parameter),
         ),
         until="pull-off",
         estimate_error=False,
     )
-    assert pull_off(result).force == pytest.approx(-force[0], rel=3e-3, abs=0)
+    assert vt.pull_off(result).force == pytest.approx(-force[0], rel=3e-3, abs=0)
     assert result.energy_residual < 1e-3
 
 
 @laws
 def test_a_stiff_sphere_pulls_off_as_bradley_has_it_whatever_the_law(law):
     # 2 pi R dg, 4/3 of the unit; the surface still gives way by a few times mu^(3/2) = 1e-3
-    groups = Groups(
-        tabor=0.01, material=ELASTIC, start=AtDepth(0.02), rate=1.0, traction=law.reduced()
+    groups = vt.Groups(
+        tabor=0.01, material=ELASTIC, start=vt.AtDepth(0.02), rate=1.0, traction=law.reduced()
     )
-    result = solve(groups, until="pull-off", estimate_error=False)
-    assert pull_off(result).force == pytest.approx(4 / 3, rel=5e-3, abs=0)
+    result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
+    assert vt.pull_off(result).force == pytest.approx(4 / 3, rel=5e-3, abs=0)
 
 
 @laws
@@ -282,14 +273,11 @@ def test_a_soft_sphere_pulls_off_as_jkr_has_it_whatever_the_law(law):
     # Lennard-Jones is 3 % above at mu = 3.24; the excess falls with the Tabor number
     excess = []
     for tabor in (2.0, 6.0):
-        groups = Groups(
-            tabor=tabor,
-            material=ELASTIC,
-            start=AtDepth(tabor),
-            rate=1.0,
-            traction=law.reduced(),
+        groups = sphere(
+            vt.AtDepth(tabor), tabor=tabor, material=ELASTIC, rate=1.0, traction=law.reduced()
         )
-        excess.append(pull_off(solve(groups, until="pull-off", estimate_error=False)).force - 1)
+        result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
+        excess.append(vt.pull_off(result).force - 1)
     assert 0 < excess[1] < 0.5 * excess[0] < 0.05
 
 
