@@ -19,6 +19,7 @@ from viscotack.design.window.simulated import part_of, posed_contact
 from viscotack.errors import InputError, OutOfRange
 from viscotack.simulate.march import SteppedSimulation
 from viscotack.simulate.settings import Settings
+from viscotack.theory import jkr
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.01, poisson_ratio=0.5)
 LAW = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=5e-9)
@@ -152,6 +153,22 @@ def test_a_ball_bounces_as_in_a_simulation():
         ours -= contact.force(state)[0] / mass * dt / 2
     assert -speed / met == pytest.approx(0.466, abs=0.01)
     assert ours == pytest.approx(speed, rel=0.01)
+
+
+def test_a_simulation_is_moved_as_far_as_its_mesh_reaches():
+    solid = vt.Elastic(rubbery_modulus=0.75e6, poisson_ratio=0.5)
+    law, start = replace(LAW, equilibrium_gap=40e-9), vt.AtDepth(1e-6)
+    ball = vt.Problem(solid, law, vt.Sphere(0.5e-3), protocol=vt.Retraction(start, speed=1e-2))
+    unit, settings = ball.scales(), Settings.for_accuracy(0.01)
+    part = part_of(posed_contact(ball, settings), settings, 1e-8, 1.0)
+    full = SteppedSimulation(part, inf, least_step=1e-8 / unit.time, settings=settings)
+    speed = 1e-2 * unit.time / unit.length
+    now = full.move(speed, 9e-4 / unit.time)
+    case = {"radius": 0.5e-3, "contact_modulus": 1e6, "work_of_adhesion": 0.05}
+    edge = jkr.contact_radius_at_depth(10e-6, **case)
+    assert now.force * unit.force == pytest.approx(jkr.force(edge, **case), rel=1e-3)
+    with pytest.raises(InputError, match="end of its mesh"):
+        full.move(speed, 3e-3 / unit.time)
 
 
 @pytest.mark.parametrize("problem", [BALL, ARMS])
