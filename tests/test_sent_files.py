@@ -4,6 +4,7 @@ import pytest
 
 from stated import case_text
 from viscotack import InputError
+from viscotack.app.engine.operating import run_request
 from viscotack.app.operations import operation
 from viscotack.app.operations.request import Caller, request_of
 
@@ -56,3 +57,13 @@ def test_what_is_sent_names_files_that_were_sent_with_it(word, folder):
     # it is read, and is no pad, or no curve of a rig
     with pytest.raises(InputError, match=r"asked.toml contains a sphere|branches.csv: "):
         answer(word, folder, "branches.csv")
+
+
+def test_a_refusal_names_a_sent_map_of_heights_and_not_where_it_lies(folder):
+    (folder / "heights.csv").write_text("1,2\n3,x\n")
+    case = case_text(shape='[surface]\nfile = "heights.csv"\npixel = "1 um"')
+    (folder / "asked.toml").write_text(case)
+    asked = request_of(operation("rough"), {"file": "asked.toml"})
+    with pytest.raises(InputError, match=r"heights\.csv") as error:
+        run_request(asked, (), str(folder), tell=lambda told: None, also=())
+    assert str(folder) not in str(error.value)

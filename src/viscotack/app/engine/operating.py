@@ -2,6 +2,7 @@
 
 import base64
 import io
+import os
 from collections.abc import Callable, Sequence
 from contextlib import chdir
 from typing import Any
@@ -41,6 +42,10 @@ def run_request(
         with chdir(folder):
             answer = answered(asked, caller)
             return answer.record() | _beside(type(asked), answer, wanted)
+    except InputError as error:
+        # surfaces know their file by its whole path
+        error.args = (str(error).replace(f"{os.path.realpath(folder)}{os.sep}", ""),)
+        raise
     except FileNotFoundError as error:
         raise InputError(f"there is no file {error.filename}") from None
     except OSError as error:
