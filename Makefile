@@ -40,8 +40,7 @@ lint: $(VENV)/.installed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
-	$(BIN)/pyright
-	$(BIN)/pyright --pythonplatform Windows src
+	$(BIN)/pyright & $(BIN)/pyright --pythonplatform Windows src && wait $$!
 	$(INSTALL) "sphinx>=9.0" "myst-parser>=5.0"
 	$(BIN)/python -m sphinx -q -W --keep-going -t pages -b dummy -c docs -d out/pages-cache . out/pages
 

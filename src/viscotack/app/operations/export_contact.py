@@ -1,5 +1,6 @@
 """The operation ``export contact``: a contact with memory for other simulators."""
 
+from math import isinf
 from typing import Any, ClassVar
 
 from .options import contact, main_file, option
@@ -44,8 +45,9 @@ class ExportContact(Request):
         record = {
             "contact": found.of,
             "range": found.range,
-            "force_band": found.force_band,
-            "work_band": found.work_band,
+            "fastest_edge_m_s": None if isinf(found.fastest) else found.fastest,
+            "force_band": list(found.force_band),
+            "work_band": list(found.work_band),
             "cells": found.node.size - 1,
             "modes": found.modulus.size,
         }

@@ -107,9 +107,12 @@ class ReducedContact:
         The contact in words.
     range : str
         Where it holds.
-    force_band, work_band : float
+    fastest : float
+        Speed of an opening edge [m/s] up to which the bands hold until the pull-off; its zone is
+        then 0.065 beta long. Infinite where zones are shorter at all speeds.
+    force_band, work_band : (float, float)
         Relative half widths of bands that hold 19 of 20 simulated pull-off forces, and works to
-        pull-off, of random approaches, dwells and pulls.
+        pull-off, of random approaches, dwells and pulls: of a slow edge, and of the fastest one.
     """
 
     node: Array
@@ -125,8 +128,9 @@ class ReducedContact:
     radius_unit: float
     of: str
     range: str
-    force_band: float
-    work_band: float
+    fastest: float
+    force_band: tuple[float, float]
+    work_band: tuple[float, float]
 
     def apart(self, depth: Any) -> ContactState:
         """Return contacts that are apart and relaxed, at depths [m] not above 0."""
@@ -184,6 +188,10 @@ class ReducedContact:
     def radius(self, state: ContactState) -> Array:
         """Return the contact radii [m]."""
         return state.radius * self.radius_unit
+
+    def edge_speed(self, state: ContactState) -> Array:
+        """Return the speeds of the edges in the last step [m/s], positive where they open."""
+        return -state.rate * self.radius_unit
 
     def stiffness(self, radius: float) -> float:
         """Return the largest stiffness at a contact radius [m], that of the glassy solid [N/m].

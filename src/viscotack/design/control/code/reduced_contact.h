@@ -2,7 +2,8 @@
  *
  * Made by viscotack $version for: $of
  * Range: $range.
- * 19 of 20 simulated pull-off forces lie within a relative $force_band, works within $work_band.
+ * 19 of 20 simulated pull-off forces lie within a relative $force_band (slow to fastest edge), works
+ * within $work_band, if ${name}_edge_speed stays below ${name}_fastest up to the pull-off.
  * In SI; depths are positive into the solid, forces in compression. C99 or C++, needs only math.h.
  * Every step is passive: the mean force times the change of depth is not below the change of
  * ${name}_storage. Copyright of this file: none (CC0).
@@ -124,6 +125,10 @@ static inline double ${name}_force(const $name *it) {
 
 /* Contact radius [m]. */
 static inline double ${name}_radius(const $name *it) { return it->radius * ${name}_beta; }
+
+/* Speed of the edge in the last step [m/s], positive where it opens; where the bands end. */
+static inline double ${name}_edge_speed(const $name *it) { return -it->rate * ${name}_beta; }
+static const double ${name}_fastest = $fastest;
 
 /* Stored energy [J], 0 if relaxed and apart. */
 static inline double ${name}_storage(const $name *it) {
