@@ -188,6 +188,7 @@ def test_speeds_and_dwells_together_give_edge_law_and_growth_in_time(growth):
     assert forecast.contact_time == pytest.approx([100])
 
 
+@pytest.mark.slow
 def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_dwell():
     speeds, times = (x.ravel() for x in np.meshgrid([1e-6, 3e-5, 1e-3], DWELLS, indexing="ij"))
 
