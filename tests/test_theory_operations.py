@@ -45,3 +45,9 @@ def test_a_passport_is_taken_as_an_object_where_a_file_of_one_is(word, name, giv
     found, file = passport
     by_file = ask(word, **given, **{name: str(file)}).record()
     assert ask(word, **given, **{name: found}).record() == by_file
+
+
+def test_a_pad_is_not_stated_without_dimensions():
+    with pytest.raises(InputError) as caught:
+        ask("theory punch", problem={"indenter": "punch", "size": 64.85, "thickness": 3.24})
+    assert caught.value.field == "size"

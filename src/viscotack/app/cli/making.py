@@ -126,6 +126,8 @@ def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
     yield _parameter("case_", Path if only else Path | None, words, needed=only)
     flags = OF_FILE if only else flags_of(option.indenters)
     for name, flag in flags.items():
+        if option.in_si and not flag.si:
+            continue
         usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
         words = typer.Option(
             f"--{name.replace('_', '-')}", metavar=usual, help=flag.words, show_default=False

@@ -215,6 +215,8 @@ class Contact(_Read):
         ("flags"), or only a case file is accepted ("case").
     whole : bool
         Whether a case file with any indenter is accepted.
+    in_si : bool
+        Whether flags state it in SI alone.
     rough : bool
         Whether a file of ``viscotack rough`` is accepted, which states a map of heights.
     table, expected : str
@@ -234,6 +236,7 @@ class Contact(_Read):
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
     spelling: Literal["flags", "word", "case"] = field(default="flags", kw_only=True)
     whole: bool = field(default=True, kw_only=True)
+    in_si: bool = field(default=False, kw_only=True)
     rough: bool = field(default=False, kw_only=True)
     table: str = field(default="", kw_only=True)
     expected: str = field(default="", kw_only=True)
