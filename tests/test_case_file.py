@@ -99,6 +99,7 @@ def test_every_start_can_be_written(line, start, tmp_path):
     ("text", "field"),
     [
         (edited("[sphere]", "[ball]"), "ball"),
+        (edited('[sphere]\nradius = "5.19 mm"', ""), "sphere"),
         (edited('"5.19 mm"', "5.19"), "sphere.radius"),
         (edited('"5.19 mm"', '"5.19 Pa"'), "sphere.radius"),
         (edited('"5.19 mm"', "true"), "sphere.radius"),

@@ -31,6 +31,9 @@ BINS = ((2.0, 3.0), (3.0, 5.0), (5.0, 9.0))
 MOVING, NOT_GLASSY = 1.6, 0.8
 # The first draw that was simulated after these limits and the derived factor were settled.
 FRESH = 49
+# What the measured series has of each force.
+_RATIOS = ("ratio", "error", "matched_low", "matched_high", "published_low", "published_high")
+_RATIOS += ("no_loss",)
 LENS = dict(rubbery_modulus=1.0, tau0=1.0, poisson_ratio=0.0)
 
 
@@ -172,10 +175,6 @@ def measured():
                 f"| {of['no_loss']:.3f} |"
             )
     return lines
-
-
-_RATIOS = ("ratio", "error", "matched_low", "matched_high", "published_low", "published_high")
-_RATIOS += ("no_loss",)
 
 
 def _percent(x, digits=1):

@@ -104,7 +104,7 @@ class ReadTests(Rig, ShiftLaw):
                 "curves": [retraction(cycle) for cycle in found.cycles],
                 "refused": refused,
             },
-            notes=(*refusals(found), *found.named_temperatures),
+            notes=(*refusals(found), *_named_temperatures(found)),
         )
 
 
@@ -112,6 +112,21 @@ class ReadTests(Rig, ShiftLaw):
 _CYCLE = ("cycle", "temperature_K", "speed_m_s", "pull_off_force_N", "work_of_separation_J")
 _CYCLE += tuple(f"{name}_uncertainty" for name in _CYCLE[2:])
 _CYCLE += ("preload_N", "dwell_time_s", "notes", "cautions")
+
+
+def _named_temperatures(found: Any) -> tuple[str, ...]:
+    """Return a note if temperatures in file names were not read and differ."""
+    from viscotack.lab.formats.tables import kelvins_in_name
+
+    files = {one.source.path for one in found.cycles if one.temperature is None}
+    named = {kelvin for file in files for kelvin in kelvins_in_name(file)}
+    if len(named) < 2:
+        return ()
+    return (
+        f"the names of files contain temperatures from {min(named) - 273.15:.4g} to "
+        f"{max(named) - 273.15:.4g} C, and tests are not separated by them; add "
+        "--temperature-in-name",
+    )
 
 
 def _shown(record: dict[str, Any]) -> dict[str, Any]:

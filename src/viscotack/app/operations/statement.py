@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from .flags import INDENTERS, stated
+from .flags import FLAGS, INDENTERS, stated
 from .options import Contact, quoted
 from .request import Caller
 
@@ -82,7 +82,14 @@ def statement(given: Any, option: Contact, caller: Caller) -> Statement:
         if word not in option.indenters:
             known = ", ".join(option.indenters)
             raise InputError(f"indenter must be one of {known}, got {word!r:.60}", field=_INDENTER)
-        return stated(word, {n: x for n, x in given.items() if n != _INDENTER}, caller)
+        said = {n: x for n, x in given.items() if n != _INDENTER}
+        pure = [n for n in said if n in FLAGS and not FLAGS[n].si]
+        if option.in_si and pure:
+            raise InputError(
+                f"{pure[0]} is dimensionless, and this problem is stated in SI; leave it out",
+                field=pure[0],
+            )
+        return stated(word, said, caller)
     from viscotack.model.problem.case_file import passport_of, problem_of
     from viscotack.model.problem.nouns import known
     from viscotack.model.problem.tables import Reading

@@ -77,17 +77,9 @@ class OfPad(Request):
 
     def _pad(self, caller: Caller) -> "tuple[Pad, Material, dict[str, float]]":
         """Return the pad and its solid in SI, and the requested numbers."""
-        from .flags import FLAGS
-
         said, given = self.problem, {"thickness", "speed"}
         if isinstance(said, Mapping) and "indenter" in said and "case" not in said:
             said = {name: x for name, x in said.items() if x is not None}
-            pure = [name for name in said if name in FLAGS and not FLAGS[name].si]
-            if pure:
-                raise InputError(
-                    f"{pure[0]} is dimensionless, and theory punch is in SI; leave it out",
-                    field=pure[0],
-                )
             given &= said.keys()
             # of what is not asked for, any number does
             usual = {"thickness": said.get("half_width"), "speed": "1 m/s", "preload": "0 m"}

@@ -53,8 +53,7 @@ def reduced_contact(problem: Problem) -> ReducedContact:
     Raises
     ------
     OutOfRange
-        If the range of attraction is too long: a Tabor number below 8, or a zone of the fastest
-        crack above 0.065 beta.
+        If the range of attraction is too long: a Tabor number below 8.
     ValueError
         If the problem is not a sphere on a half-space without a spring, in SI, or if the law grows
         with the opening speed.

@@ -17,7 +17,6 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.formats.tables import kelvins_in_name
 from viscotack.units import readable
 
 from .baseline import (
@@ -477,19 +476,6 @@ class Survey:
             for refused in one.refused
         ]
         return (*files, *cycles)
-
-    @property
-    def named_temperatures(self) -> tuple[str, ...]:
-        """A note if temperatures in file names were not read and differ."""
-        files = {one.source.path for one in self.cycles if one.temperature is None}
-        named = {kelvin for file in files for kelvin in kelvins_in_name(file)}
-        if len(named) < 2:
-            return ()
-        return (
-            f"the names of files contain temperatures from {min(named) - 273.15:.4g} to "
-            f"{max(named) - 273.15:.4g} C, and tests are not separated by them; add "
-            "--temperature-in-name",
-        )
 
 
 def survey(

@@ -409,7 +409,9 @@ def material_of(given: Any, reading: Reading, temperature: float | None = None) 
     """Return the material that a table [material] states."""
     where = f"{reading.where}, [material]"
     if not isinstance(given, Mapping):
-        raise InputError(f"{reading.where}: the table [material] is missing; see docs/input.md")
+        raise InputError(
+            f"{reading.where}: the table [material] is missing; see docs/input.md", field="material"
+        )
     if "passport" in given:
         passport, kelvin = _passport(given, reading, temperature)
         if reading.pure:

@@ -200,7 +200,9 @@ def read_as(kind: type[T], table: Any, reading: Reading, name: str) -> T:
 
     where = f"{reading.where}, [{name}]"
     if not isinstance(table, Mapping):
-        raise InputError(f"{reading.where}: the table [{name}] is missing; see docs/input.md")
+        raise InputError(
+            f"{reading.where}: the table [{name}] is missing; see docs/input.md", field=name
+        )
     refuse_unknown(where, table, (f.name for f in fields(kind) if f.init), "key", table=name)  # type: ignore[arg-type]
     try:
         return adapter(kind).validate_python(dict(table), context=reading)
