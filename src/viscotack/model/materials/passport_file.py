@@ -1,8 +1,6 @@
 """Read and write passports as TOML files, without loss of digits.
 
 Quantities are text with units, so that TOML readers of other programs need no other information.
-``[relaxation]`` and ``[retardation]`` are the same material as exponentials, derived from
-``[material]``, for programs that read no other model.
 """
 
 import os
@@ -11,21 +9,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from viscotack.cards import of_units, with_units
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import Target, write_whole
-from viscotack.model.materials.branched_solids import Prony, StandardSolid
 from viscotack.model.materials.checks import rests
-from viscotack.model.materials.conversion import (
-    RetardationSeries,
-    prony_form,
-    relaxation_form,
-    relaxation_series,
-    retardation_series,
-)
 from viscotack.model.materials.material import Material
 from viscotack.model.materials.passport import Evidence, Origin, Passport
 from viscotack.model.materials.shift import LAWS, FittedShift, Shift, TabulatedShift
@@ -35,9 +23,8 @@ from viscotack.units import parse
 VERSION = 1
 _TABLES = (
     "material", "convention", "temperature", "nearest_law", "range", "origin", "evidence",
-    "relaxation", "retardation", "allowed",
+    "allowed",
 )  # fmt: skip
-_NOT_EXACT = 1e-3  # relative error of the Prony series written for a power law
 # What tau0 and other times of a model are.
 _TIMES = {
     "elastic": "none",
@@ -120,7 +107,6 @@ def _tables(passport: Passport) -> list[tuple[str, Mapping[str, Any]]]:
         ("[range]", {"angular_frequency": [f"{w!r} rad/s" for w in bounds]} if bounds else {}),
         ("[origin]", _stated(passport.origin)),
         ("[evidence]", _stated(passport.evidence) if passport.evidence else {}),
-        *_forms(passport),
         *(("[[allowed]]", _solid(allowed)) for allowed in passport.allowed),
     ]
 
@@ -150,24 +136,6 @@ def _stated(record: Any) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value not in ("", (), None)}
 
 
-def _forms(passport: Passport) -> list[tuple[str, Mapping[str, Any]]]:
-    """Return the relaxation and the retardation form as exponentials, if there are any."""
-    material, error = passport.material, 0.0
-    if material.modulus_ratio == 1:
-        return []
-    if isinstance(material, Prony | StandardSolid):
-        series = relaxation_form(material)
-    elif passport.frequencies is not None:
-        form = prony_form(material, frequencies=passport.frequencies, tolerance=_NOT_EXACT)
-        series, error = form.material, form.error
-    else:
-        return []
-    found: list[tuple[str, Any]] = [("[retardation]", retardation_series(series))]
-    if not isinstance(material, Prony):  # whose [material] is the relaxation form
-        found.insert(0, ("[relaxation]", series))
-    return [(name, {"largest_error": error} | with_units(each)) for name, each in found]
-
-
 def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Passport:
     """Read a passport from a TOML file.
 
@@ -188,8 +156,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
     FileNotFoundError
         If the file does not exist.
     ValueError
-        If the file is not a passport, a key is missing, unknown or invalid, or its relaxation or
-        retardation form disagrees with its material.
+        If the file is not a passport, or a key is missing, unknown or invalid.
 
     Examples
     --------
@@ -240,7 +207,7 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
     temperature, nearest = tables.get("temperature", {}), tables.get("nearest_law")
     measured = convention.get("measured", _NOT_STATED)
     reference = temperature.get("reference")
-    passport = Passport(
+    return Passport(
         name=str(tables.get("name", "")),
         material=material_in(tables["material"], models),
         temperature=None if reference is None else parse(reference, "K"),
@@ -253,10 +220,6 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
         evidence=_made(Evidence, tables["evidence"]) if "evidence" in tables else None,
         allowed=tuple(material_in(table, models) for table in tables.get("allowed", ())),
     )
-    for name in ("relaxation", "retardation"):
-        if name in tables:
-            _check_form(passport, name, dict(tables[name]))
-    return passport
 
 
 def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material:
@@ -273,22 +236,6 @@ def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material
         return of_units(models[model], {k: v for k, v in table.items() if k != "model"})
     except InputError as error:
         raise InputError(f"[material] {error}") from None
-
-
-def _check_form(passport: Passport, name: str, table: dict[str, Any]) -> None:
-    """Raise an error if a series disagrees with the material, because one of them was edited."""
-    error = float(table.pop("largest_error"))
-    kind = Prony if name == "relaxation" else RetardationSeries
-    series = of_units(kind, table | {"poisson_ratio": passport.material.poisson_ratio})
-    solid = relaxation_series(series) if isinstance(series, RetardationSeries) else series
-    fastest, slowest = solid.branches[0][1], solid.branches[-1][1]
-    omega = np.geomspace(*(passport.frequencies or (0.1 / slowest, 10 / fastest)), 60)
-    ratio = solid.complex_modulus(omega) / np.asarray(passport.material.complex_modulus(omega))
-    if not np.max(np.abs(ratio - 1)) < min(1.5 * error, 0.1) + 1e-9:
-        raise InputError(
-            f"the table [{name}] disagrees with [material], from which it is derived; delete "
-            "[relaxation] and [retardation] after editing [material]"
-        )
 
 
 def _shift(table: Mapping[str, Any]) -> Shift:
