@@ -59,7 +59,7 @@ def test_json_in_lists_is_read(file):
 
 
 def test_numbers_without_a_name_above_columns_must_be_identified(file):
-    bare = lab_files.TEXTS["wide"].replace(" °C".encode(), b"")
+    bare = lab_files.TEXTS["csv_wide"].replace(" °C".encode(), b"")
     with pytest.raises(
         ValueError, match=r"'-40' above the columns is a temperature in C or K \(--temp"
     ):

@@ -60,6 +60,17 @@ def test_reptate_is_read_in_its_own_units(file, name, headings):
     assert_allclose(sweeps.angular_frequency, lab_files.OMEGA[8:])
 
 
+@pytest.mark.parametrize("name", ["csv_wide", "csv_wide_within"])
+def test_sweeps_side_by_side_in_a_workbook_are_apart(name, tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for line in lab_files.TEXTS[name].decode().splitlines():
+        cells = line.split(",")
+        book.active.append([float(x) if x[:1].isdigit() else x for x in cells])
+    book.save(tmp_path / "film.xlsx")
+    assert_the_invented_film(read_dma(tmp_path / "film.xlsx"))
+
+
 def test_the_published_sweeps_are_the_same_as_text_and_as_workbook():
     pytest.importorskip("xlrd")
     text = read_dma(DMA / "freq_user_raw.csv")

@@ -34,7 +34,6 @@ FORMATS: dict[str, Callable[..., list[Table] | None]] = {
     "trios-json": trios_json.tables,
     "trios": text.trios,
     "rheocompass": text.rheocompass,
-    "wide": text.wide,
     "csv": text.plain,
 }
 
@@ -244,8 +243,6 @@ def _tests_in(opened: Sequence[_Opened]) -> set[str | None]:
 
 def _tables(path: Path, given: Options) -> tuple[LabFile, list[Table]]:
     file = load(path)
-    if not given.names:
-        file = text.upright(file, MATERIAL)
     given.check_format(FORMATS)
     fitting = first_fitting(file, FORMATS, given.format, MATERIAL, given.names)
     assert fitting is not None, "plain tables raise their own error"

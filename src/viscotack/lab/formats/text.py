@@ -14,8 +14,9 @@ rows:
   a label and two integers, number and count of points. The headings follow after a second label.
   The first column is empty; some exports omit it in the rows.
 
-Wide tables have the sweeps of several temperatures side by side; the temperature is in a line above
-its columns (``20 °C`` above ``G', G''``), or in each heading (``G' 20 °C [Pa]``).
+Tables, also of workbooks, may have the sweeps of several temperatures side by side; the temperature
+is in a row above its columns (``20 °C`` above ``G', G''``), or in each heading (``G' 20 °C [Pa]``).
+They may also stand on their side, with the headings in the first column.
 """
 
 import csv
@@ -91,7 +92,7 @@ def geometry(rows: Sequence[Sequence[str]]) -> str:
 
 
 def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table]:
-    """Return the table of a file, or one table for each line that repeats the headings.
+    """Return the tables of a file.
 
     `names` are the headings or numbers of columns given by the caller.
 
@@ -103,43 +104,69 @@ def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[T
     found = _headings(file, words, names) or _by_number(file, names)
     found = found or (_headings(file, words) if names else None)
     if found is None:
-        raise _no_headings(file, words)
+        return _on_its_side(file, words)
     line, separator, headings = found
     above = [[text.lstrip("#% ")] for text in file.lines[: max(line - 1, 0)]]
-    stated = {"words": geometry(above), "temperature": stated_temperature(above)}
-    # an instrument repeats the headings above each of its intervals
-    same = file.lines[line - 1].strip()
-    starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
-    starts = starts if line else [0]
-    tables = []
-    for start, end in zip(starts, [*(i - 1 for i in starts[1:]), len(file.lines)], strict=True):
-        units, rows = _below(file, range(start, end), separator)
-        tables.append(tabulated(file, words, headings, units, rows, **stated))
-    return tables
+    before = next((row[0] for row in reversed(above) if row[0].strip()), "").split(separator)
+    return in_rows(file, words, headings, _rows(file, line, separator), above, before)
 
 
-def _below(
-    file: LabFile, lines: range, separator: str | None
-) -> tuple[Sequence[str] | None, list[Row]]:
-    """Return the units, if a row contains them, and the numbered rows (from 0).
+def _rows(file: LabFile, begin: int, separator: str | None) -> list[Row]:
+    """Return the rows from a line on (from 0), without comments.
 
-    A comment of units below headings in a comment is a row of units.
+    A comment that repeats the headings, or has units below headings in a comment, is a row.
     """
-    commented = lines.start > 0 and is_comment(file.lines[lines.start - 1])
+    same = file.lines[begin - 1].strip() if begin and is_comment(file.lines[begin - 1]) else ""
     rows: list[Row] = []
-    for i in lines:
-        text = file.lines[i]
-        if text.strip() and not is_comment(text):
-            rows.append((i + 1, cells(file, text, i + 1, separator)))
-        elif commented and not rows:
-            row = cells(file, text.strip().lstrip("#% "), i + 1, separator)
-            if any(is_unit(cell) for cell in row if cell.strip()):
-                rows.append((i + 1, row))
-    if lines.stop < len(file.lines):
+    headed = bool(same)
+    for number, text in enumerate(file.lines[begin:], start=begin + 1):
+        if not is_comment(text):
+            if text.strip():
+                rows.append((number, cells(file, text, number, separator)))
+                headed = False
+        elif text.strip() == same or headed:
+            row = cells(file, text.strip().lstrip("#% "), number, separator)
+            headed = text.strip() == same
+            if headed or any(is_unit(cell) for cell in row if cell.strip()):
+                rows.append((number, row))
+    return rows
+
+
+def in_rows(
+    file: LabFile,
+    words: Vocabulary,
+    headings: Sequence[str],
+    rows: Sequence[Row],
+    above: Sequence[Sequence[str]],
+    before: Sequence[str] = (),
+) -> list[Table]:
+    """Return the tables below a row of headings; another one below numbers begins another table.
+
+    `above` are the rows above the headings, and `before` is the last of them that is not empty.
+    """
+    stated = {"words": geometry(above), "temperature": stated_temperature(above)}
+    starts, filled = [-1], False
+    for i, (_, row) in enumerate(rows):
+        if any(map(is_number, row)):
+            filled = True
+        elif filled and (list(row) == list(headings) or heads(words, row)):
+            starts.append(i)
+            filled = False
+    found = []
+    for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
+        block = list(rows[start + 1 : end])
         # text above the next headings: "Result: ...", "Interval: 2"
-        while rows and rows[-1][1][0].rstrip().endswith(":"):
-            rows.pop()
-    return under(rows)
+        while end < len(rows) and block and _is_text(block[-1][1]):
+            block.pop()
+        own, labels = _labels(*((headings, before) if start < 0 else (rows[start][1], ())))
+        units, data = under(block)
+        whole = tabulated(file, words, own, units, data, **stated)
+        found += _by_label(whole, labels) if labels else [whole]
+    return found
+
+
+def _is_text(row: Sequence[str]) -> bool:
+    return row[0].rstrip().endswith(":") or not any(map(is_number, row))
 
 
 def _no_headings(file: LabFile, words: Vocabulary) -> InputError:
@@ -155,7 +182,12 @@ def _no_headings(file: LabFile, words: Vocabulary) -> InputError:
 
 
 def _headings(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> Found | None:
-    return _first_line(file, words, lambda row: words.heads(row, names), bool(names))
+    return _first_line(file, words, lambda row: heads(words, row, names), bool(names))
+
+
+def heads(words: Vocabulary, row: Sequence[str], names: Sequence[str] = ()) -> bool:
+    """Return whether a row heads a table, perhaps with temperatures within its headings."""
+    return words.heads(row, names) or words.heads(_within(row)[0])
 
 
 def _by_number(file: LabFile, names: Sequence[str]) -> Found | None:
@@ -165,9 +197,9 @@ def _by_number(file: LabFile, names: Sequence[str]) -> Found | None:
 
 
 def _first_line(
-    file: LabFile, words: Vocabulary, heads: Callable[[list[str]], bool], sure: bool = False
+    file: LabFile, words: Vocabulary, fits: Callable[[list[str]], bool], sure: bool = False
 ) -> Found | None:
-    """Return the first line that `heads` accepts.
+    """Return the first line that `fits` accepts.
 
     Unless `sure`, most cells of a line split at spaces must have a meaning; otherwise it is a
     sentence.
@@ -178,30 +210,28 @@ def _first_line(
                 row = cells(file, text.lstrip("#% "), count, separator)
             except ValueError:
                 continue
-            if not heads(row):
+            if not fits(row):
                 continue
-            known = sum(words.recognise(cell, "") is not None for cell in row)
+            known = sum(words.recognise(cell, "") is not None for cell in _within(row)[0])
             if separator or sure or 2 * known > len(row):
                 return count, separator, row
     return None
 
 
-def upright(file: LabFile, words: Vocabulary) -> LabFile:
-    """Return a file with columns in place of rows, if its headings stand one below the other."""
-    if file.is_workbook or _headings(file, words) is not None:
-        return file
+def _on_its_side(file: LabFile, words: Vocabulary) -> list[Table]:
+    """Return the tables of a file whose headings stand one below the other, in its first column."""
     for separator in filter(None, _SEPARATORS):
         split = [(i, text.split(separator)) for i, text in enumerate(file.lines)]
         rows = [(i, row) for i, row in split if sum(map(is_number, row)) >= _FEWEST]
         if not 1 < len(rows) <= _MOST_ROWS or len({len(row) for _, row in rows}) > 1:
             continue
-        columns = [list(column) for column in zip(*(row for _, row in rows), strict=True)]
-        if words.heads(columns[0]):
-            above = file.lines[: rows[0][0]]
-            lines = (*above, *(separator.join(column) for column in columns))
-            notes = (*file.notes, "rows and columns of the table exchanged")
-            return replace(file, lines=lines, notes=notes)
-    return file
+        headings, *columns = map(list, zip(*(row for _, row in rows), strict=True))
+        if words.heads(headings):
+            above = [[text] for text in file.lines[: rows[0][0]]]
+            found = in_rows(file, words, headings, list(enumerate(columns, start=1)), above)
+            note = "rows and columns of the table exchanged"
+            return [replace(table, notes=(*table.notes, note)) for table in found]
+    raise _no_headings(file, words)
 
 
 # ---- blocks with a count of points: TRIOS, RheoCompass -----------------------------------------
@@ -331,41 +361,32 @@ def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Tab
 # ---- sweeps side by side -----------------------------------------------------------------------
 
 
-def wide(file: LabFile, *_: object) -> list[Table] | None:
+def _by_label(table: Table, labels: Sequence[str]) -> list[Table]:
     """Return a table for each temperature; columns without one are common to all sweeps."""
-    found = _side_by_side(file)
-    if found is None:
-        return None
-    line, separator, headings, labels = found
-    units, rows = _below(file, range(line, len(file.lines)), separator)
-    whole = tabulated(file, MATERIAL, headings, units, rows)
+    labels = labels[: len(table.headings)]
     shared = [i for i, label in enumerate(labels) if not label]
     tables = []
     for label in dict.fromkeys(filter(None, labels)):
         own = [i for i, other in enumerate(labels) if other == label]
         notes = (f"the columns under {label!r} are a separate sweep",)
-        tables.append(of_columns(whole, [*shared, *own], own, label=label, notes=notes))
+        tables.append(of_columns(table, [*shared, *own], own, label=label, notes=notes))
     return tables
 
 
-def _side_by_side(file: LabFile) -> tuple[int, str | None, list[str], list[str]] | None:
-    """Return line, separator, headings without temperatures, and the label of each column."""
-    above: dict[str | None, list[str]] = {}
-    for number, text in enumerate(file.lines[:LOOKED], start=1):
-        for separator in filter(None, _separators(text)):
-            try:
-                row = [cell.strip() for cell in cells(file, text.lstrip("#% "), number, separator)]
-            except ValueError:
-                continue
-            for headings, labels in (_within(row), (row, _above(row, above.get(separator, [])))):
-                if _each_has_its_own(headings, labels):
-                    return number, separator, headings, labels
-            if any(row):
-                above[separator] = row
-    return None
+def _labels(headings: Sequence[str], before: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Return headings without temperatures and the label of each column; none if they have none.
+
+    Labels stand within the headings, or above the columns; one of them begins with a number.
+    """
+    row = [cell.strip() for cell in headings]
+    for own, labels in (_within(row), (row, _above(row, before))):
+        if any(label[:1] in "+-0123456789" for label in filter(None, labels)):
+            if _each_has_its_own(own, labels):
+                return own, labels
+    return row, []
 
 
-def _within(row: list[str]) -> tuple[list[str], list[str]]:
+def _within(row: Sequence[str]) -> tuple[list[str], list[str]]:
     """Split headings into the part without temperature, and the temperatures."""
     headings, labels = [], []
     for cell in row:
@@ -377,9 +398,9 @@ def _within(row: list[str]) -> tuple[list[str], list[str]]:
     return headings, labels
 
 
-def _above(row: list[str], labels: list[str]) -> list[str]:
+def _above(row: Sequence[str], labels: Sequence[str]) -> list[str]:
     """Return the label above each column, or above the nearest column to the left."""
-    padded = [*labels, *[""] * len(row)][: len(row)]
+    padded = [*map(str.strip, labels), *[""] * len(row)][: len(row)]
     return list(accumulate(padded, lambda left, own: own or left))
 
 

@@ -16,9 +16,8 @@ from viscotack.files.archive import check_unpacked
 
 from .file import LARGEST_UNPACKED, LabFile
 from .headings import MATERIAL, Vocabulary
-from .numbers import is_number
-from .tables import Table, holds, numbered, stated_temperature, tabulated, under
-from .text import begins_interval, geometry, intervals
+from .tables import Table, holds, numbered
+from .text import begins_interval, geometry, heads, in_rows, intervals
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for
@@ -57,34 +56,23 @@ def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[
 
 
 def _of_sheet(file: LabFile, words: Vocabulary, rows: Cells, names: Sequence[str]) -> list[Table]:
-    def heads(rows: Cells, names: Sequence[str] = ()) -> int | None:
-        return next((i for i, row in enumerate(rows) if words.heads(row, names)), None)
+    def headed(rows: Cells, names: Sequence[str] = ()) -> int | None:
+        return next((i for i, row in enumerate(rows) if heads(words, row, names)), None)
 
-    if len(rows) <= _LOOKED and heads(rows) is None:
+    if len(rows) <= _LOOKED and headed(rows) is None:
         on_its_side = [list(column) for column in zip(*rows, strict=True)]
-        rows = on_its_side if heads(on_its_side) is not None else rows
+        rows = on_its_side if headed(on_its_side) is not None else rows
     numbered_rows = list(enumerate(rows, start=1))
-    at = heads(rows[:_LOOKED], names)
+    at = headed(rows[:_LOOKED], names)
     if at and words is MATERIAL and begins_interval(rows[at - 1]):
         return intervals(file, numbered_rows)
     if at is None:
         first = next((i for i, row in enumerate(rows[:_LOOKED]) if holds(row, names)), None)
         if first is None:
             return _of_sheet(file, words, rows, ()) if names else []
-        return [tabulated(file, words, numbered(rows[first]), None, numbered_rows[first:])]
-    stated = stated_temperature(rows[:at])
-    # further rows of headings begin further tables
-    later = [(i, row) for i, row in enumerate(rows) if i > at and sum(map(bool, row)) > 1]
-    starts = [i for i, row in later if not any(map(is_number, row)) and words.heads(row)]
-    starts.insert(0, at)
-    found = []
-    for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
-        block = numbered_rows[start + 1 : end]
-        while end < len(rows) and block and not any(map(is_number, block[-1][1])):
-            block.pop()
-        units, data = under(block)
-        found.append(tabulated(file, words, rows[start], units, data, temperature=stated))
-    return found
+        return in_rows(file, words, numbered(rows[first]), numbered_rows[first:], ())
+    before = rows[at - 1] if at else ()
+    return in_rows(file, words, rows[at], numbered_rows[at + 1 :], rows[:at], before)
 
 
 def sheets(file: LabFile) -> dict[str, Cells]:

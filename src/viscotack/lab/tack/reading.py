@@ -156,8 +156,6 @@ def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackR
             if not file.lines and not file.is_workbook:
                 raise file.error("the file is neither text nor a workbook; export it as text")
             file = replace(file, notes=(*file.notes, *file.left_out))
-            if not given.names:
-                file = text.upright(file, TACK)
             fitting = first_fitting(file, _TABLES, given.format, TACK, given.names)
             assert fitting is not None, "plain tables raise their own error"
             file = replace(file, format=fitting[0])
