@@ -28,8 +28,6 @@ from .report import ALIKE, FitReport, Fitted, Interval, information_criterion
 
 # Ratio of a plateau to the measured moduli above which the law extrapolates.
 _BEYOND = 1.25
-# Smallest number of points at which the shapes of the two moduli are compared.
-_SHAPE = 8
 # Decades between neighbouring points above which single arms show as steps.
 _GAP = 1.5
 # Root mean square of ln(measured/fitted) above which a model has failed.
@@ -93,8 +91,8 @@ def scatter_of(data: Observed, material: Any) -> float:
     return float(np.sqrt(np.mean(data.weighed(data.residuals(material)) ** 2)))
 
 
-def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, ...]:
-    """Return sentences on too many arms, gaps between points, and contradictory moduli."""
+def series_cautions(data: Observed, found: Fitted) -> tuple[str, ...]:
+    """Return sentences on too many arms and on gaps between points."""
     words = []
     arms, numbers = found.grid, data.values.size
     if 2 * arms + 1 > numbers:
@@ -108,18 +106,6 @@ def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, .
             f"points are up to {np.max(steps):.2g} decades apart: in gaps beyond a decade the "
             "series rises in steps that were not measured; a power law interpolates smoothly"
         )
-    if few:
-        return tuple(words)
-    if len(data.parts) == 2 and data.at.size >= _SHAPE and found.scatter > 0.05:
-        alone = fit_series(only(data, "storage"))
-        if found.scatter > 3 * alone.scatter:
-            off = np.median(np.abs(np.expm1(data.residuals(alone.material)[1])))
-            words.append(
-                "storage and loss modulus contradict each other (Kramers-Kronig): a series that "
-                f"fits storage to {100 * alone.scatter:.2g} % is {100 * off:.2g} % off "
-                "the loss (median). A shift, a sweep or a calibration is wrong; this fit is a "
-                "compromise"
-            )
     return tuple(words)
 
 
@@ -319,8 +305,7 @@ def fit(
             if arms is not None:
                 cautions = few_arms_caution(seen, found)
             if draws:
-                # a misfit of few arms is no contradiction of the moduli
-                cautions += series_cautions(seen, found, few=bool(cautions))
+                cautions += series_cautions(seen, found)
         else:
             found = fit_constants(seen, model=model, known=known or {}, **more)
         if tried:
