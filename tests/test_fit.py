@@ -19,10 +19,7 @@ from viscotack.lab.fit.prony import fit_series
 from viscotack.lab.fit.report import issued
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
-from viscotack.model.geometry import Sphere
 from viscotack.model.materials import (
-    FractionalKelvinVoigt,
-    FractionalMaxwell,
     FractionalZener,
     Prony,
     RelaxationPowerLaw,
@@ -31,9 +28,6 @@ from viscotack.model.materials import (
 )
 from viscotack.model.materials.library import published
 from viscotack.model.materials.shift import WLF
-from viscotack.model.problem import Problem
-from viscotack.model.protocol import AtDepth, Retraction
-from viscotack.model.traction import LennardJones
 
 PDMS = published("pdms-10-1").material
 TRUTH = (1.458e6, 3.089e9, 0.2207, 0.01876)
@@ -302,7 +296,7 @@ def test_a_drift_is_found_and_the_interval_of_a_mean_is_that_of_few_numbers():
     assert np.median(own) == pytest.approx(1.66 / 10, rel=0.25)
 
 
-# ---- many points, few arms, liquids, springpots ------------------------------------------------
+# ---- many points, few arms, liquids -----------------------------------------------------------
 
 
 def test_a_liquid_is_called_one():
@@ -327,35 +321,6 @@ def test_a_liquid_is_called_one():
     assert "this is a liquid" in fit(flowing, poisson_ratio=0.5, model="prony", draws=2).words()
     solid = fit(curve(), poisson_ratio=0.5, model="prony", draws=2)
     assert "liquid" not in solid.words() and not issued(solid, name="solid").liquid
-
-
-SPRINGPOTS = {
-    "fractional-maxwell": FractionalMaxwell(
-        modulus=1e5, order=0.9, lower_order=0.2, tau0=0.1, poisson_ratio=0.5
-    ),
-    "fractional-kelvin-voigt": FractionalKelvinVoigt(
-        modulus=1e4, order=0.7, lower_order=0.1, tau0=2.0, poisson_ratio=0.5
-    ),
-}
-
-
-@pytest.mark.parametrize("model", SPRINGPOTS)
-def test_springpots_are_found_again_and_have_no_passport(model):
-    solid = SPRINGPOTS[model]
-    omega = np.geomspace(1e-3, 1e5, 30)
-    report = fit(curve(material=solid, omega=omega), poisson_ratio=0.5, model=model, draws=2)
-    for each in report.intervals:
-        assert each.value == pytest.approx(getattr(solid, each.name), rel=0.06)
-        assert each.bounded
-    with pytest.raises(ValueError, match="law for fits only"):
-        issued(report, name="gel")
-    with pytest.raises(ValueError, match="law for fits only"):
-        Problem(
-            material=report.material,
-            traction=LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6),
-            geometry=Sphere(radius=1e-3),
-            protocol=Retraction(start=AtDepth(depth=1e-6), speed=1e-6),
-        )
 
 
 def test_a_fractional_zener_solid_is_found_again():

@@ -15,16 +15,7 @@ if TYPE_CHECKING:
     from viscotack.lab import FitReport
     from viscotack.model.materials.passport import Passport
 
-Model = Literal[
-    "best",
-    "power-law",
-    "relaxation-power-law",
-    "sls",
-    "fractional-zener",
-    "fractional-maxwell",
-    "fractional-kelvin-voigt",
-    "prony",
-]
+Model = Literal["best", "power-law", "relaxation-power-law", "sls", "fractional-zener", "prony"]
 
 
 class FitMaterial(Dma, Shifting):
@@ -79,20 +70,13 @@ class FitMaterial(Dma, Shifting):
         from .parts.records import fit_record
 
         report, shift = self._fitted(caller)
-        passport = None
-        if "output" in caller.wants or not hasattr(report.material, "no_contact"):
-            passport = self._passport(report, shift)
-        shifted = [] if passport is None else shift_lines(passport)
-        words = "\n".join([report.words(), *shifted])
+        passport = self._passport(report, shift)
+        words = "\n".join([report.words(), *shift_lines(passport)])
         return Answer(
             (report, passport),
             data=lambda: fit_record(report, passport),
             words=lambda: words,
-            files=(
-                {}
-                if passport is None
-                else {"output": lambda target: write_passport(passport, target)}
-            ),
+            files={"output": lambda target: write_passport(passport, target)},
             pictures={"plot": lambda: draw_fit(report, passport)},
             drawn=lambda: _drawn(report, passport) | {"words": words},
             notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
@@ -142,18 +126,17 @@ class FitMaterial(Dma, Shifting):
             raise InputError(f"{quoted(given)} cannot be used {why}; leave it out")
 
 
-def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
+def _drawn(report: "FitReport", passport: "Passport") -> dict[str, Any]:
     """Return the data of a fit for the page."""
     from viscotack.model.materials.passport_file import passport_text
 
     from .parts import drawn
     from .parts.library import material_table
 
-    issued = passport is not None
     return {
         "notes": report.observed.source.notes,
-        "table": material_table(report.material) if issued else None,
-        "passport": passport_text(passport) if issued else None,
+        "table": material_table(report.material),
+        "passport": passport_text(passport),
         "fit": drawn.fit(report),
-        "shifts": drawn.shifts(passport.shift) if issued else None,
+        "shifts": drawn.shifts(passport.shift),
     }

@@ -17,7 +17,6 @@ from viscotack.errors import InputError
 from viscotack.lab.sweeps import MasterCurve, ShiftTable
 from viscotack.model.materials import Prony
 from viscotack.model.materials.passport import LIQUID
-from viscotack.model.materials.words import FITS_ONLY
 from viscotack.threads import one_blas_thread
 from viscotack.units import readable
 
@@ -41,10 +40,6 @@ _FLOWING = 0.8
 
 def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
     """Return sentences on undetermined constants and on the ends of the measured range."""
-    if getattr(material, "no_contact", ""):
-        flowing = flow(data, material)
-        liquid = (f"{LIQUID}: at the slowest point {flowing}",) if flowing else ()
-        return (*liquid, material.no_contact, *_constants(data, material, intervals), _ends(data))
     if scatter_of(data, material) > _MISSED:
         return (_ends(data),)
     return (*_constants(data, material, intervals), _ends(data))
@@ -194,8 +189,6 @@ def _plateau(data: Observed, material: Any, interval: Interval) -> list[str]:
 
 
 MODELS = (*KINDS, "prony")
-# Candidates of `best`: contacts can be simulated on all of them.
-SOLIDS = tuple(model for model in MODELS if model not in FITS_ONLY)
 
 
 def fit(
@@ -225,10 +218,8 @@ def fit(
         Poisson ratio nu, in [0, 0.5], constant; 0.5 for rubber, about 0.35 for a glass.
     model : str
         "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls",
-        "fractional-zener", "prony"; "fractional-maxwell" or "fractional-kelvin-voigt", which have
-        no plateau, so contacts cannot be simulated on them; or "best": all except these two are
-        fitted, and of those within 2 of the smallest corrected Akaike criterion the one with the
-        fewest constants is chosen.
+        "fractional-zener", "prony"; or "best": all are fitted, and of those within 2 of the
+        smallest corrected Akaike criterion the one with the fewest constants is chosen.
     arms : int, optional
         Number of relaxation times of a Prony series, on a logarithmic grid; up to 12 times are
         optimised. By default the criterion chooses. Arms of zero modulus are dropped. A caution
@@ -357,8 +348,8 @@ def _undecided(alike: Sequence[Tried]) -> tuple[str, ...]:
 
 def _affordable(data: Observed) -> list[str]:
     """Return the models with fewer constants than numbers."""
-    constants = {model: 3 if model in ("sls", "prony") else 4 for model in SOLIDS}
-    found = [model for model in SOLIDS if data.values.size > constants[model] + 3]
+    constants = {model: 3 if model in ("sls", "prony") else 4 for model in MODELS}
+    found = [model for model in MODELS if data.values.size > constants[model] + 3]
     if not found:
         raise InputError(
             f"{data.values.size} numbers are too few to compare models; name the one to fit"

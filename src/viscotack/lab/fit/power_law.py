@@ -21,8 +21,6 @@ from viscotack.arrays import Array
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.model.materials import (
-    FractionalKelvinVoigt,
-    FractionalMaxwell,
     FractionalZener,
     RelaxationPowerLaw,
     RetardationPowerLaw,
@@ -42,21 +40,16 @@ KINDS = {
     "relaxation-power-law": RelaxationPowerLaw,
     "sls": StandardSolid,
     "fractional-zener": FractionalZener,
-    "fractional-maxwell": FractionalMaxwell,
-    "fractional-kelvin-voigt": FractionalKelvinVoigt,
 }
 _FAR = np.log(1e4)  # search range of a plateau about the measured moduli
 _COARSE = 1e-3
 _SKETCH = 60  # number of points used to compare minima
-_MODULI = ("rubbery_modulus", "glassy_modulus", "modulus")
+_MODULI = ("rubbery_modulus", "glassy_modulus")
 _TRIED = {
     "rubbery_modulus": (1.0,),
-    "modulus": (1.0,),
     "exponent": (0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.9, 2.7),
     "order": (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9),
-    "lower_order": (0.02, 0.1, 0.2, 0.35, 0.5, 0.7),
 }
-_UPPER_ORDERS = (0.15, 0.3, 0.5, 0.7, 0.9, 0.98)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,8 +78,6 @@ class Search:
             "rubbery_modulus": (np.log(softest) - _FAR, middle),
             "glassy_modulus": (middle, np.log(stiffest) + _FAR),
             "exponent": (np.log(0.02), np.log(3.0) - 1e-9),
-            "modulus": (np.log(softest) - _FAR, np.log(stiffest) + _FAR),
-            "lower_order": (np.log(1e-3), -1e-9),
             "tau0": (-np.log(fast) - 2 * _FAR, -np.log(slow) + 2 * _FAR),
         }
         if "order" in names:
@@ -108,10 +99,6 @@ class Search:
     def solid(self, x: Array) -> Any:
         """Return the solid whose free constants have the natural logarithms x."""
         values = self.known | dict(zip(self.free, np.exp(x).tolist(), strict=True))
-        if "lower_order" in values:
-            # springpots may be swapped: sort them
-            lower, upper = sorted((values["order"], values["lower_order"]))
-            values |= {"order": max(upper, 0.05), "lower_order": max(lower, upper - 0.989)}
         return self.kind(**values, poisson_ratio=self.data.poisson_ratio)
 
     def misfit(self, x: Array) -> Array:
@@ -189,15 +176,11 @@ class Search:
     def _twins(self, ratio: float) -> Iterator[tuple[Any, dict[str, float]]]:
         """Yield trial solids with tau0 = 1 s, and the logarithms of their constants."""
         tried = _TRIED | {"glassy_modulus": tuple(1 / ratio / np.array([0.9, 0.2, 0.01]))}
-        if "lower_order" in self.names:
-            tried["order"] = _UPPER_ORDERS
         # moduli are relative to one of them
         tried |= {name: (value,) for name, value in self.known.items() if name not in _MODULI}
         tried = {name: tried[name] for name in self.names if name != "tau0"}
         for values in itertools.product(*tried.values()):
             constants = dict(zip(tried, values, strict=True))
-            if constants.get("lower_order", -1.0) >= constants.get("order", 0.0):
-                continue
             twin = self.kind(**constants, tau0=1.0, poisson_ratio=0.0)
             yield twin, {name: float(np.log(value)) for name, value in constants.items()}
 

@@ -17,7 +17,7 @@ from .shift_laws import nearest_law
 
 # Difference of the criterion within which the data do not distinguish two models.
 ALIKE = 2.0
-_UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "modulus": "Pa", "tau0": "s"}
+_UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "tau0": "s"}
 
 
 @dataclass(frozen=True)

@@ -9,15 +9,12 @@ from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport, write_passport
 from viscotack.model.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.model.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
 from viscotack.model.materials.two_bodies import effective_solid
 
 __all__ = [
     "WLF",
     "Arrhenius",
     "Elastic",
-    "FractionalKelvinVoigt",
-    "FractionalMaxwell",
     "FractionalZener",
     "Material",
     "Modes",

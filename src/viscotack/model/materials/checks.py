@@ -45,13 +45,6 @@ def stiffens(material: Any) -> None:
         )
 
 
-def rests(material: Any) -> None:
-    """Raise an error for a law without a rubbery plateau, on which no contact is at rest."""
-    reason = getattr(material, "no_contact", "")
-    if reason:
-        raise InputError(f"{material.word} is a law for fits only: {reason}")
-
-
 def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:
     """Validate the time window [s] and tolerance of a set of modes; return them as floats."""
     shortest = positive("shortest", shortest, "s")

@@ -56,20 +56,6 @@ FractionalOrder = Annotated[
         advice="describe an order near 1 by StandardSolid, one near 0 by Elastic",
     ),
 ]
-UpperOrder = Annotated[
-    float,
-    Quantity("1", "a", "order of the springpot that is the more liquid", least=0.05, most=1),
-]
-LowerOrder = Annotated[
-    float,
-    Quantity("1", "b", "order of the springpot that is the more solid", least=0, most=1),
-]
-CharacteristicModulus = Annotated[
-    float, Quantity("Pa", "E", "modulus of either springpot at 1/tau0", above=0)
-]
-CharacteristicTime = Annotated[
-    float, Quantity("s", "tau0", "time at which the springpots share", above=0)
-]
 ModulusRatio = Annotated[
     float,
     Quantity("1", "k", "rubbery over glassy modulus", above=0, most=1, example="0.1"),

@@ -6,7 +6,7 @@ from statistics import NormalDist, fmean, pstdev
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.model.materials.checks import rests, temperatures
+from viscotack.model.materials.checks import temperatures
 from viscotack.model.materials.conversion import PronyForm, prony_form, slowed
 from viscotack.model.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
@@ -127,8 +127,6 @@ class Passport:
     allowed: tuple[Any, ...] = ()
 
     def __post_init__(self):
-        for solid in (self.material, *self.allowed):
-            rests(solid)
         if not hasattr(self.material, "retardation_modes"):
             raise InputError(
                 f"material must be a solid of viscotack, got {type(self.material).__name__}"

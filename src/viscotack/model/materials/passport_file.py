@@ -13,11 +13,10 @@ from viscotack.cards import of_units, with_units
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import Target, write_whole
-from viscotack.model.materials.checks import rests
 from viscotack.model.materials.material import Material
 from viscotack.model.materials.passport import Evidence, Origin, Passport
 from viscotack.model.materials.shift import LAWS, FittedShift, Shift, TabulatedShift
-from viscotack.model.materials.words import FITS_ONLY, MODELS, word_of
+from viscotack.model.materials.words import MODELS, word_of
 from viscotack.units import parse
 
 VERSION = 1
@@ -225,7 +224,6 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
 def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material:
     """Return the material of a table [material]; its model must be one of the given ones."""
     model = table["model"]
-    rests(FITS_ONLY.get(model))
     if model not in models:
         raise InputError(
             f"[material] model must be one of {', '.join(models)}, got {model!r}; for a "

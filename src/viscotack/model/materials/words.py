@@ -8,7 +8,6 @@ from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSo
 from viscotack.model.materials.fractional import FractionalZener
 from viscotack.model.materials.material import Material
 from viscotack.model.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
-from viscotack.model.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
 
 # Word in a file -> class.
 MODELS: Mapping[str, Any] = {
@@ -21,11 +20,6 @@ MODELS: Mapping[str, Any] = {
         RelaxationPowerLaw,
         FractionalZener,
     )
-}
-
-# Laws for fits only, without a relaxed contact.
-FITS_ONLY: Mapping[str, Any] = {
-    kind.word: kind for kind in (FractionalMaxwell, FractionalKelvinVoigt)
 }
 
 

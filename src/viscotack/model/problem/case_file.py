@@ -28,13 +28,12 @@ from viscotack.model.geometry import (
     Sphere,
 )
 from viscotack.model.materials import Elastic, Material, Prony
-from viscotack.model.materials.checks import rests
 from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.materials.library import MATERIALS, published
 from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport
 from viscotack.model.materials.scaling import scaled
-from viscotack.model.materials.words import FITS_ONLY, word_of
+from viscotack.model.materials.words import word_of
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.law_table import law_from_table, table_of_law
 from viscotack.model.problem.nouns import known
@@ -430,7 +429,6 @@ def material_of(given: Any, reading: Reading, temperature: float | None = None) 
             f"{reading.where}: a temperature of {temperature:g} K needs a material from a "
             'passport, which contains the shift of its times; [material] passport = "pdms.toml"'
         )
-    rests(FITS_ONLY.get(str(given.get("model"))))
     kind = reading.choice(given, "material", "model", reading.nouns.materials, OWN)
     table = {key: value for key, value in given.items() if key != "model"}
     if reading.pure:

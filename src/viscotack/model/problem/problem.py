@@ -25,7 +25,6 @@ from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.model.geometry import Body, FlatPunch, HalfSpace, Shape, Sphere, numbers
 from viscotack.model.materials import Material
-from viscotack.model.materials.checks import rests
 from viscotack.model.materials.constants import poisson_ratio as checked_poisson_ratio
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.outputs import Kind
@@ -443,7 +442,6 @@ _PARTS: Mapping[str, tuple[tuple[str, ...], str]] = {
 
 def _check_parts(problem: Any) -> None:
     """Raise an error for a part of another kind, or a body that does not support the shape."""
-    rests(problem.material)
     for name, (members, example) in _PARTS.items():
         part = getattr(problem, name, None)
         if name == "protocol" and isinstance(problem, Groups):

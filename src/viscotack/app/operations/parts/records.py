@@ -23,13 +23,9 @@ def passport_record(passport: Any) -> dict[str, Any]:
 
 
 def fit_record(report: Any, passport: Any) -> dict[str, Any]:
-    """Return a fitted material: its passport, or the law alone where it has none."""
+    """Return a fitted material: its passport, and how well it fits."""
     more = {"criterion": dict(report.compared), "median_error": report.median_error}
-    if passport is not None:
-        return passport_record(passport) | more
-    evidence = read(report, "level", "undetermined", "cautions")
-    evidence["intervals"] = [(each.name, each.low, each.high) for each in report.intervals]
-    return {"material": _material_record(report.material), "evidence": evidence} | more
+    return passport_record(passport) | more
 
 
 def _material_record(material: Any) -> dict[str, Any]:
