@@ -7,6 +7,7 @@ import os
 import re
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -63,7 +64,7 @@ def read_map(
     FileNotFoundError
         If the file does not exist.
     ValueError
-        If it contains no such map; the message names the line. If SurfaceTopography is needed and
+        If it contains no such map. If SurfaceTopography is needed and
         not installed, or the file states pixel or unit too.
     """
     path = Path(path)
@@ -159,42 +160,22 @@ def _array(path: Path) -> npt.NDArray:
 
 def _table(path: Path) -> tuple[npt.NDArray, _Header]:
     """Return the numbers of a text file, and its header."""
-    rows: list[npt.NDArray] = []
-    comments: list[str] = []
-    separator: str | None = None
-    commas = False
     with open(path, encoding="utf-8-sig", errors="replace") as file:
-        for number, text in enumerate(file, 1):
-            line = text.strip()
-            if line.startswith("#"):
-                comments.append(line)
-            if not line or line.startswith("#"):
-                continue
-            if not rows:
-                separator = next(sep for sep in _SEPARATORS if sep is None or sep in line)
-                # "0,5 0,7" has commas within numbers, "0.5, 0.7" between them
-                blanks = line.split()
-                if (
-                    separator == ","
-                    and len(blanks) > 1
-                    and all(map(_DECIMAL_COMMAS.fullmatch, blanks))
-                ):
-                    separator = None
-                commas = separator != "," and "," in line and "." not in line
-            if len(rows) == MOST:
-                raise InputError(f"a map has up to {MOST} rows")
-            parts = line.rstrip(separator or "").split(separator)
-            try:
-                row = np.array(
-                    [float(part.replace(",", ".") if commas else part) for part in parts]
-                )
-            except ValueError as error:
-                raise InputError(f"line {number}: {error}; a map has only numbers") from None
-            if rows and len(row) != len(rows[0]):
-                raise InputError(
-                    f"line {number} has {len(row)} numbers, and the first row {len(rows[0])}"
-                )
-            rows.append(row)
+        lines = [text.strip() for text in islice(file, 2 * MOST)]
+    rows = [line for line in lines if line and not line.startswith("#")]
     if not rows:
         raise InputError("it has no numbers")
-    return np.array(rows), _header(comments)
+    first = rows[0]
+    separator = next(mark for mark in _SEPARATORS if mark is None or mark in first)
+    # "0,5 0,7" has commas within numbers, "0.5, 0.7" between them
+    blanks = first.split()
+    if separator == "," and len(blanks) > 1 and all(map(_DECIMAL_COMMAS.fullmatch, blanks)):
+        separator = None
+    if separator != "," and "," in first and "." not in first:
+        rows = [row.replace(",", ".") for row in rows]
+    try:
+        cut = [row.rstrip(separator or "") for row in rows]
+        heights = np.loadtxt(cut, delimiter=separator, ndmin=2)
+    except ValueError as error:
+        raise InputError(f"{error}; a map has only numbers, equally many in each row") from None
+    return heights, _header([line for line in lines if line.startswith("#")])
