@@ -16,10 +16,9 @@ if TYPE_CHECKING:
     from viscotack.model.materials.conversion import PronyForm
     from viscotack.model.materials.passport import Passport
 
-# Programs whose input is written and read.
-Code = Literal["abaqus", "ansys", "comsol"]
-# Of these the input states modulus and Poisson ratio.
-_STATING = ("abaqus", "ansys")
+# Programs whose input is written, and read.
+Written = Literal["abaqus", "ansys", "comsol"]
+Code = Literal["abaqus", "ansys"]
 
 
 def _band(value: Any) -> tuple[float, float]:
@@ -89,19 +88,14 @@ class ConvertMaterial(_Converted):
     )
     prony: bool = switch("Convert to a Prony series with a stated error.")
     code: Code | None = option("Program whose input file is read.", flags=("--from",))
-    rubbery_modulus: float | None = number(
-        "Long-term Young's modulus, if not in the input file.", "Pa"
-    )
-    poisson_ratio: float | None = number("Poisson ratio, if not in the input file.")
 
     def check(self) -> None:
         """Check that options of other programs' input, and of a series, are given for these."""
         from viscotack.model.materials.library import MATERIALS
         from viscotack.model.materials.passport import Passport
 
-        constants = self._constants()
         if self.code is None:
-            names = (*constants, "pressure_unit", "time_unit")
+            names = ("pressure_unit", "time_unit")
             given = [name for name in names if getattr(self, name) is not None]
             if given:
                 raise InputError(
@@ -111,10 +105,6 @@ class ConvertMaterial(_Converted):
             raise InputError("`code` takes a file of another program, not a material of ours")
         elif (self.pressure_unit is None) != (self.time_unit is None):
             raise InputError("give both `pressure_unit` and `time_unit`")
-        elif constants and self.code in _STATING:
-            raise InputError(
-                f"input of {self.code} holds modulus and Poisson ratio; leave them out"
-            )
         if self.frequencies is not None and not self.prony:
             raise InputError("frequencies go with prony", field="frequencies")
 
@@ -133,10 +123,6 @@ class ConvertMaterial(_Converted):
         files = {"output": lambda target: write_passport(passport, target)}
         return replace(_answer(passport, caller), files=files)
 
-    def _constants(self) -> dict[str, float]:
-        said = {n: getattr(self, n) for n in ("rubbery_modulus", "poisson_ratio")}
-        return {name: value for name, value in said.items() if value is not None}
-
     def _imported(self, caller: Caller) -> "Passport":
         from viscotack.files.text import read_text
         from viscotack.model.materials.exchange import Units, imported
@@ -148,7 +134,7 @@ class ConvertMaterial(_Converted):
         units = Units(pressure, time) if pressure and time else None
         text = read_text(file)
         try:
-            solid = imported(text, code, units=units, **self._constants())
+            solid = imported(text, code, units=units)
         except ValueError as error:
             raise InputError(f"{file}: {error}") from None
         origin = Origin(file=file.name, format=code, made_by=f"viscotack {__version__}")
@@ -175,7 +161,7 @@ class ExportMaterial(_Converted):
     takes_own: ClassVar = True
 
     passport: APassport
-    to: Code = option("The program to write for.", default=...)
+    to: Written = option("The program to write for.", default=...)
     bulk_modulus: float | None = number(
         'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".', "Pa"
     )

@@ -1,4 +1,4 @@
-r"""Export and import of Prony series for other programs, each with its own convention.
+r"""Prony series as input of other programs, written and, of Abaqus and Ansys, read.
 
 The conventions differ in three points:
 
@@ -132,7 +132,8 @@ def exported(
     0.9, 0.9, 0.1
     <BLANKLINE>
     """
-    _check_code(code)
+    if code not in CODES:
+        raise InputError(f"the program must be one of {', '.join(CODES)}, got {code!r}")
     glassy = material.glassy_modulus
     # an incompressible solid has another Young's modulus and Poisson ratio in the program
     tensile = glassy if code == "ansys" else material.rubbery_modulus
@@ -240,8 +241,7 @@ def _shifted(code: str, shift: Shift | None) -> list[str]:
 class _Deck:
     """What a text states, in its own units: one elastic modulus and the branches.
 
-    Branches are (line, shear, bulk, time); shear and bulk are ratios to the instantaneous modulus,
-    or of comsol shear moduli.
+    Branches are (line, shear, bulk, time); shear and bulk are ratios to the instantaneous modulus.
     """
 
     modulus: float | None
@@ -250,14 +250,7 @@ class _Deck:
     is_instantaneous: bool = False
 
 
-def imported(
-    text: str,
-    code: str,
-    *,
-    units: Units | None = None,
-    rubbery_modulus: float | None = None,
-    poisson_ratio: float | None = None,
-) -> Prony:
+def imported(text: str, code: str, *, units: Units | None = None) -> Prony:
     """Import the Prony series from a text of another program.
 
     Parameters
@@ -265,12 +258,9 @@ def imported(
     text : str
         Text in the format of the program; commands unrelated to the series are ignored.
     code : str
-        One of those of :func:`exported`.
+        "abaqus" or "ansys".
     units : Units, optional
         Units of the numbers; by default from the comment "units: pressure ..., time ...".
-    rubbery_modulus, poisson_ratio : float, optional
-        Long-term Young's modulus [Pa] and Poisson ratio, which the format of comsol lacks unless a
-        comment of this package states them.
 
     Raises
     ------
@@ -278,10 +268,8 @@ def imported(
         If something is missing, is not a number, or does not describe a solid with a constant
         Poisson ratio; the message names the line.
     """
-    _check_code(code)
-    given = rubbery_modulus is not None or poisson_ratio is not None
-    if given and code != "comsol":
-        raise InputError(f"{code} states its elastic constants; leave them out", field="code")
+    if code not in _READERS:
+        raise InputError(f"the program must be one of {', '.join(_READERS)}, got {code!r}")
     if units is None:
         stated = _COMMENT.search(text)
         if stated is None:
@@ -291,23 +279,14 @@ def imported(
             )
         units = Units(*stated.groups())
     deck = _READERS[code](text)
-    modulus = None if deck.modulus is None else deck.modulus * units.pascal
-    modulus = modulus if rubbery_modulus is None else rubbery_modulus
-    nu = deck.poisson_ratio if poisson_ratio is None else poisson_ratio
-    if modulus is None or nu is None:
-        raise InputError(
-            f"the text lacks the {'instantaneous' if code == 'ansys' else 'long-term'} Young's "
-            "modulus and the Poisson ratio; of a table of branches give both (rubbery_modulus, "
-            "poisson_ratio)"
-        )
+    nu = deck.poisson_ratio
+    if deck.modulus is None or nu is None:
+        raise InputError("the text lacks Young's modulus or the Poisson ratio")
+    modulus = deck.modulus * units.pascal
     if not deck.branches:
         raise InputError("the text contains no branch of a Prony series")
-    if not given and _INCOMPRESSIBLE in text:
+    if _INCOMPRESSIBLE in text:
         modulus, nu = 3 * modulus * _shear_factor(nu), 0.5
-    if code == "comsol":
-        factor = units.pascal / _shear_factor(nu)
-        branches = [(G * factor, time * units.second) for _, G, _, time in deck.branches]
-        return Prony(rubbery_modulus=modulus, branches=tuple(branches), poisson_ratio=nu)
     for line, shear, bulk, _ in deck.branches:
         if nu != 0.5 and abs(shear - bulk) > _SAME * max(shear, bulk):
             raise InputError(
@@ -411,35 +390,10 @@ def _of_ansys(text: str) -> _Deck:
     return _Deck(constants.get("EX"), nu, rows, is_instantaneous=True)
 
 
-def _of_comsol(text: str) -> _Deck:
-    """Read a table of branches; the elastic constants are in comments, if anywhere."""
-    rows = []
-    for line, raw in _lines(text, "%"):
-        words = raw.replace(",", " ").split()
-        if len(words) != 3:
-            raise InputError(
-                f"line {line}: expected branch, shear modulus and relaxation time, got {raw!r}"
-            )
-        G = _number(words[1], line, "the shear modulus")
-        rows.append((line, G, G, _number(words[2], line, "the relaxation time")))
-    found: list[float | None] = []
-    for name in ("long-term Young's modulus", "Poisson ratio"):
-        stated = re.search(rf"{name}\s+(\S+)", text)
-        line = stated and text.count("\n", 0, stated.start()) + 1
-        found.append(stated and _number(stated[1], line or 0, name))
-    return _Deck(found[0], found[1], rows)
-
-
 _READERS: dict[str, Callable[[str], _Deck]] = {
     "abaqus": _of_abaqus,
     "ansys": _of_ansys,
-    "comsol": _of_comsol,
 }
-
-
-def _check_code(code: str) -> None:
-    if code not in CODES:
-        raise InputError(f"the program must be one of {', '.join(CODES)}, got {code!r}")
 
 
 def _lines(text: str, comment: str) -> Iterator[tuple[int, str]]:
