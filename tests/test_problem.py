@@ -4,7 +4,7 @@ import pytest
 
 import viscotack as vt
 from stated import numbers
-from viscotack.model.problem import plane, ranges, revolution
+from viscotack.model.problem import plane, ranges
 from viscotack.model.problem.inputs import changed, check_exponent, check_paths
 
 E, NU = 1.458e6, 0.5
@@ -103,28 +103,6 @@ def test_exactly_one_of_gap_and_work_of_adhesion_is_required():
         groups.in_si(**(scales | {"radius": -1}), equilibrium_gap=1e-6)
     with pytest.raises(ValueError, match="poisson_ratio must lie between 0 and 0.5"):
         groups.in_si(**(scales | {"poisson_ratio": 1.5}), equilibrium_gap=1e-6)
-
-
-@pytest.mark.parametrize("start", [vt.AtDepth(1.4e-3), vt.AtForce(10.0), vt.AtRadius(2.7e-3)])
-def test_a_contact_beyond_small_strain_is_refused(start):
-    with pytest.raises(ValueError, match="exceeds small strain.*sphere radii.*reduce the preload"):
-        lens(protocol=vt.Retraction(start=start, speed=1e-4))
-
-
-@pytest.mark.parametrize(
-    ("start", "force"),
-    [(vt.AtForce, 0.02), (vt.AtDepth, 0.02), (vt.AtForce, -0.003), (vt.AtDepth, -0.003)],
-)
-def test_small_strain_is_judged_by_the_jkr_radius(start, force):
-    """The estimate of the contact radius puts depth and force back on the JKR curve."""
-    R, w, contact = 5.19e-3, 0.1523, E / (1 - NU**2)
-    a = revolution._relaxed_radius(lens(), vt.AtForce(force))
-    # Eq. 2.3 and 2.4
-    load = 4 * contact * a**3 / (3 * R) - math.sqrt(8 * math.pi * w * contact * a**3)
-    assert load == pytest.approx(force, rel=1e-9)
-    depth = a**2 / R - math.sqrt(2 * math.pi * a * w / contact)
-    if start is vt.AtDepth:
-        assert revolution._relaxed_radius(lens(), vt.AtDepth(depth)) == pytest.approx(a, rel=1e-9)
 
 
 def test_groups_refuse_what_is_not_reduced():
