@@ -427,7 +427,7 @@ def found(test, name):
     if name == "dma":
         return ordered(np.column_stack((test.angular_frequency, test.storage, test.loss)), name)
     if name == "shifts":
-        points = np.column_stack((test.temperature - 273.15, test.log10_shift))
+        points = np.column_stack((np.array(test.temperature) - 273.15, test.values))
     else:
         column = "modulus" if name == "relaxation" else "compliance"
         several = test if isinstance(test, tuple) else (test,)
@@ -473,7 +473,7 @@ def outcome(path, name):
     # steps at several temperatures are several tests
     kind = type(test[0] if isinstance(test, tuple) else test).__name__
     names = {"dma": "FrequencySweeps", "relaxation": "RelaxationTest", "creep": "CreepTest",
-             "shifts": "ShiftTable"}  # fmt: skip
+             "shifts": "TabulatedShift"}  # fmt: skip
     if kind != names[recipe.test]:
         return "MISREAD", f"read as {kind}"
     try:

@@ -100,8 +100,8 @@ def test_the_published_master_curves_are_read():
     shifts = read_shifts(DMA / "freq_user_master__shift_factors.csv")
     assert len(shifts) == 21
     assert shifts.temperature[0] == pytest.approx(223.15, rel=1e-12)
-    assert shifts.log10_shift[[0, 6, -1]].tolist() == [12.75, 0.0, -11.7]
-    assert shifts.uncertainty is None
+    assert [shifts.values[i] for i in (0, 6, -1)] == [12.75, 0.0, -11.7]
+    assert shifts.uncertainty == ()
 
 
 PER_SECOND = table("1, 3, 0.4, 20", units="1/s, MPa, MPa, C")
@@ -283,8 +283,8 @@ def test_shift_factors_of_reptate_are_read(file):
     shifts = read_shifts(
         file("Mw=1;chem=PI;\nT aT bT\n[°C] [-] [-]\n-40 1000 1.1\n20 1 1\n", "a.ttsf")
     )
-    assert_allclose(shifts.log10_shift, [3, 0], atol=1e-15)
-    assert_allclose(shifts.log10_vertical, [np.log10(1.1), 0], atol=1e-15)
+    assert_allclose(shifts.values, [3, 0], atol=1e-15)
+    assert_allclose(shifts.vertical, [np.log10(1.1), 0], atol=1e-15)
 
 
 def test_a_creep_test_is_read_and_becomes_tensile(file):

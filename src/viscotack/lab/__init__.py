@@ -16,7 +16,7 @@ from .reading import (
     read_dma,
     read_shifts,
 )
-from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
+from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Source
 
 __all__ = [
     "FORMATS",
@@ -27,7 +27,6 @@ __all__ = [
     "Options",
     "RelaxationTest",
     "ShiftFit",
-    "ShiftTable",
     "Source",
     "TackOptions",
     "allow_for_shifts",

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.model.materials.shift import TabulatedShift
 
 from .diagnosis import cause, form_of, test_of
 from .formats.columns import MaterialColumns, refuse_pooled
@@ -22,7 +23,6 @@ from .sweeps import (
     CreepTest,
     FrequencySweeps,
     RelaxationTest,
-    ShiftTable,
     Source,
     grouped,
     levels,
@@ -311,7 +311,7 @@ def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Optio
     return found
 
 
-def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
+def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> TabulatedShift:
     """Return the shift factors of a file, as log10."""
     for table in tables:
         columns = MaterialColumns(file, table, given)
@@ -330,16 +330,15 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable
     keep = columns.keep
     if not keep.any():
         raise columns.error("no row has all required numbers")
+    order = np.flatnonzero(keep)[np.argsort(temperature[keep], kind="stable")]
+    temperature, values = temperature[order], horizontal[order]
+    up = () if vertical is None else tuple(vertical[order])
+    reference = float(temperature[np.argmin(np.abs(values))])
     try:
-        table = ShiftTable(
-            temperature[keep],
-            horizontal[keep],
-            None,
-            None if vertical is None else vertical[keep],
-        )
+        table = TabulatedShift(reference, tuple(temperature), tuple(values), vertical=up)
     except ValueError as error:
         raise columns.error(str(error)) from None
-    if len(table) > 1 and np.all(np.diff(table.log10_shift) > 0):
+    if np.all(np.diff(values) > 0):
         raise columns.error(
             "the shifts rise with temperature; a_T exceeds 1 in the cold: give 1/a_T"
         )

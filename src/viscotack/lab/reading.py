@@ -11,6 +11,7 @@ from os import PathLike
 from typing import Any, NamedTuple
 
 from viscotack.errors import InputError
+from viscotack.model.materials.shift import TabulatedShift
 
 from . import assembly
 from .diagnosis import sheets_with_test, test_of
@@ -20,7 +21,7 @@ from .formats.file import LabFile, first_fitting, load
 from .formats.headings import MATERIAL
 from .formats.tables import Table, kelvin_in_name, pieces, where
 from .options import Options
-from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable, joined
+from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, joined
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
@@ -165,7 +166,7 @@ def read_dma(
     return joined([assembly.sweeps(*each) for each in opened])
 
 
-def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTable:
+def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> TabulatedShift:
     r"""Read a table of shift factors: temperature and log_aT, or aT and optionally bT.
 
     log10 a_T is positive where the solid is slower than at the reference
@@ -183,8 +184,8 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTa
 
     Returns
     -------
-    ShiftTable
-        log10 a_T, and log10 b_T if the file has it.
+    TabulatedShift
+        log10 a_T, and log10 b_T if the file has it; its reference is the row nearest to zero shift.
 
     Raises
     ------
@@ -200,8 +201,8 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTa
     ...     file = Path(folder, "shifts.csv")
     ...     _ = file.write_text(table)
     ...     found = read_shifts(file)
-    >>> found.log10_shift.tolist()
-    [2.1, 0.0]
+    >>> found.values, found.reference_temperature
+    ((2.1, 0.0), 293.15)
     """
     (opened,) = _opened([path], options, more)
     return assembly.shifts(*opened)

@@ -24,7 +24,6 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.model.materials.checks import temperatures
 from viscotack.model.materials.constants import poisson_ratio as checked_poisson_ratio
 from viscotack.model.materials.shift import TabulatedShift
 
@@ -159,60 +158,6 @@ class FrequencySweeps(_Moduli):
 
 
 @dataclass(frozen=True, eq=False)
-class ShiftTable:
-    """Shift factors, one per temperature.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (M,)
-        Temperatures [K], positive; sorted in ascending order.
-    log10_shift : array_like, shape (M,)
-        log10 a_T, positive where the solid is slower than at the reference, where it is zero.
-    uncertainty : array_like, shape (M,), or None
-        Standard deviation of log10_shift, not negative; None if unknown.
-    log10_vertical : array_like, shape (M,), or None
-        log10 of the factor that converts a modulus to the reference temperature; None for 1.
-
-    Examples
-    --------
-    >>> table = ShiftTable([293.15, 253.15], [0, 3.1], None)
-    >>> table.temperature.tolist()
-    [253.15, 293.15]
-    """
-
-    temperature: Array
-    log10_shift: Array
-    uncertainty: Array | None
-    log10_vertical: Array | None = None
-
-    def __post_init__(self):
-        temperature = temperatures("temperature", array("temperature", self.temperature, "K"))
-        order = np.argsort(temperature, kind="stable")
-        if np.any(np.diff(temperature[order]) == 0):
-            raise InputError("a table of shift factors must have one row per temperature")
-        for name in ("temperature", "log10_shift", "uncertainty", "log10_vertical"):
-            values = getattr(self, name)
-            if values is None:
-                continue
-            values = array(name, values, "-", temperature.size)[order]
-            if not np.all(np.isfinite(values)):
-                raise InputError(f"{name} must be finite")
-            if name == "uncertainty" and np.any(values < 0):
-                raise InputError(f"uncertainty must not be negative, got {values.min():g}")
-            store(self, name, values)
-
-    def __len__(self) -> int:
-        return self.temperature.size
-
-    def at_reference(self, temperature: float) -> TabulatedShift:
-        """Return a tabulated law with zero shift at a temperature [K]; needs two or more rows."""
-        columns = (self.temperature, self.log10_shift, self.uncertainty, self.log10_vertical)
-        return TabulatedShift(
-            temperature, *(() if values is None else tuple(values.tolist()) for values in columns)
-        )
-
-
-@dataclass(frozen=True, eq=False)
 class MasterCurve(_Moduli):
     """Storage and loss modulus at one temperature, from shifted sweeps.
 
@@ -226,7 +171,7 @@ class MasterCurve(_Moduli):
         Moduli at the reference temperature [Pa], positive.
     kind : {"E", "G"}
         Tensile or shear modulus.
-    shifts : ShiftTable or None
+    shifts : TabulatedShift or None
         Shift factors used.
     source : Source
         Origin of the points.
@@ -247,7 +192,7 @@ class MasterCurve(_Moduli):
     storage: Array
     loss: Array
     kind: str
-    shifts: ShiftTable | None = None
+    shifts: TabulatedShift | None = None
     source: Source = Source()
     temperature: Array | None = None
     sweep: Integers | None = None

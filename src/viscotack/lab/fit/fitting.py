@@ -14,9 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import MasterCurve, ShiftTable
+from viscotack.lab.sweeps import MasterCurve
 from viscotack.model.materials import Prony
 from viscotack.model.materials.passport import LIQUID
+from viscotack.model.materials.shift import TabulatedShift
 from viscotack.threads import one_blas_thread
 from viscotack.units import readable
 
@@ -380,7 +381,7 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
         A fit to `data`.
     data : MasterCurve or another measurement
         Fitted data; tests over time leave the report unchanged.
-    shifts : ShiftTable or a law
+    shifts : TabulatedShift or a law
         Shifts with their uncertainty; without one the report is unchanged.
 
     Returns
@@ -407,9 +408,9 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
     >>> allow_for_shifts(report, curve, shifts=None) is report
     True
     """
-    if not isinstance(data, MasterCurve) or not isinstance(shifts, ShiftTable):
+    if not isinstance(data, MasterCurve) or not isinstance(shifts, TabulatedShift):
         return report
-    if shifts.uncertainty is None or data.temperature is None or not np.any(shifts.uncertainty):
+    if data.temperature is None or not np.any(shifts.uncertainty):
         return report
     rng = np.random.default_rng(0)
     found = [_refitted(report, _moved(data, shifts, rng)) for _ in range(_DRAWS)]
@@ -434,10 +435,10 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
     return replace(report, intervals=tuple(intervals), cautions=cautions)
 
 
-def _moved(curve: MasterCurve, shifts: ShiftTable, rng: np.random.Generator) -> MasterCurve:
+def _moved(curve: MasterCurve, shifts: TabulatedShift, rng: np.random.Generator) -> MasterCurve:
     """Return the curve with random shifts within their uncertainty."""
-    assert shifts.uncertainty is not None and curve.temperature is not None, "checked by the caller"
-    variance = shifts.uncertainty**2
+    assert curve.temperature is not None, "checked by the caller"
+    variance = np.array(shifts.uncertainty) ** 2
     zero = int(np.argmin(variance))
     error = np.zeros(variance.size)
     for side in (range(zero + 1, variance.size), range(zero - 1, -1, -1)):

@@ -27,7 +27,6 @@ from viscotack.lab.sweeps import (
     FrequencySweeps,
     MasterCurve,
     RelaxationTest,
-    ShiftTable,
     joined_source,
     refuse_unlike,
 )
@@ -50,7 +49,7 @@ def master_curve(
     sweeps: FrequencySweeps,
     *,
     reference_temperature: float | None,
-    shift: Shift | ShiftTable | None = None,
+    shift: Shift | None = None,
     by: str | None = None,
     vertical: str | float | None = None,
 ) -> MasterCurve:
@@ -66,7 +65,7 @@ def master_curve(
     reference_temperature : float or None
         Temperature of the curve [K]. None only for sweeps at one temperature, known or
         unknown, which are not shifted.
-    shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
+    shift : WLF, Arrhenius or TabulatedShift, optional
         A law is taken relative to the reference temperature and shifts every point by its own
         temperature. A row of a table shifts the points within 1 K of it, vertically as well;
         between rows it is interpolated. By default the shifts follow from the
@@ -147,7 +146,7 @@ def _moved(
     reference: float | None,
     along: Array | float = 1.0,
     up: Array | float = 1.0,
-    table: ShiftTable | None = None,
+    table: TabulatedShift | None = None,
 ) -> MasterCurve:
     """Return all points as one curve, their frequencies and moduli multiplied."""
     return MasterCurve(
@@ -210,24 +209,24 @@ def _moving(vertical: str | float) -> str:
     return f"moduli shifted vertically by density and temperature, expansion {vertical:g} 1/K"
 
 
-def _named(shift: Shift | ShiftTable) -> str:
+def _named(shift: Shift) -> str:
     return f"shifted by {shift.words() if isinstance(shift, WLF | Arrhenius) else 'a table'}"
 
 
 def shifted_by(
-    shift: Shift | ShiftTable, temperature: Array, levels: Array, reference: float
-) -> tuple[Array, Array, ShiftTable]:
-    """Return the horizontal and vertical shift of each point, and the table at the levels."""
-    if isinstance(shift, ShiftTable):
-        vertical = np.zeros(len(shift)) if shift.log10_vertical is None else shift.log10_vertical
+    shift: Shift, temperature: Array, levels: Array, reference: float
+) -> tuple[Array, Array, TabulatedShift | None]:
+    """Return the horizontal and vertical shift of each point, and the table at several levels."""
+    if isinstance(shift, TabulatedShift):
         along, up = (
-            _interpolated(temperature, shift.temperature, values, reference)
-            for values in (shift.log10_shift, vertical)
+            _interpolated(temperature, np.array(shift.temperature), np.array(values), reference)
+            for values in (shift.values, shift.vertical or np.zeros(len(shift)))
         )
         return along, up, shift
     law = shift.at_reference(reference)
     horizontal = np.asarray(law.log10_shift(temperature))
-    table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
+    rows = tuple(levels), tuple(np.atleast_1d(law.log10_shift(levels)))
+    table = TabulatedShift(float(levels[0]), *rows) if levels.size > 1 else None
     return horizontal, np.zeros_like(horizontal), table
 
 
@@ -243,10 +242,6 @@ def _interpolated(temperature: Array, rows: Array, values: Array, reference: flo
     # the reference is interpolated, not rounded to a row
     beside[-1] = rows[0] < reference < rows[-1]
     if beside.any():
-        if rows.size < 2:
-            raise InputError(
-                f"the table of shifts has one row; {asked[beside][0]:.2f} K needs another"
-            )
         curve = TabulatedShift(float(rows[0]), tuple(rows), tuple(values))
         found[beside] = values[0] + np.asarray(curve.log10_shift(asked[beside]))
     return found[:-1] - found[-1]
@@ -259,9 +254,9 @@ def superposed(
     tests: Sequence[Test],
     *,
     reference_temperature: float,
-    shift: Shift | ShiftTable | None = None,
+    shift: Shift | None = None,
     vertical: str | float = "none",
-) -> tuple[Test, ShiftTable]:
+) -> tuple[Test, TabulatedShift | None]:
     """Superpose tests at several temperatures; return one test and the shifts.
 
     Parameters
@@ -270,7 +265,7 @@ def superposed(
         One or more, each with its temperature and four or more points; all of one kind of modulus.
     reference_temperature : float
         Temperature of the result [K].
-    shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
+    shift : WLF, Arrhenius or TabulatedShift, optional
         As in :func:`viscotack.lab.master_curve`; without it the shifts follow from overlap.
     vertical : {"none", "auto", "free"} or float
         As in :func:`viscotack.lab.shift_factors`. With one curve per temperature, "auto" assumes
@@ -281,8 +276,8 @@ def superposed(
     -------
     test : RelaxationTest or CreepTest
         All points at the reference temperature, ascending in time.
-    shifts : ShiftTable
-        Shift of each temperature.
+    shifts : TabulatedShift or None
+        Shift of each temperature; None for one temperature.
 
     Raises
     ------
@@ -298,7 +293,7 @@ def superposed(
     >>> cold = RelaxationTest(time, 1e6 * (1 + np.exp(-time)), "G", temperature=293.15)
     >>> hot = RelaxationTest(time, 1e6 * (1 + np.exp(-10 * time)), "G", temperature=303.15)
     >>> curve, shifts = superposed([hot, cold], reference_temperature=293.15)
-    >>> len(curve), [round(float(value), 1) for value in shifts.log10_shift]
+    >>> len(curve), [round(value, 1) for value in shifts.values]
     (40, [0.0, -1.0])
     """
     ordered = _ordered(tests)

@@ -12,9 +12,8 @@ from viscotack.lab.sweeps import (
     FrequencySweeps,
     MasterCurve,
     RelaxationTest,
-    ShiftTable,
 )
-from viscotack.model.materials.shift import WLF, Shift
+from viscotack.model.materials.shift import WLF, Shift, TabulatedShift
 
 from .master_curve import contradiction, master_curve, superposed
 from .superposition import superposition
@@ -26,11 +25,11 @@ def at_one_temperature(
     measured: FrequencySweeps | Tests,
     *,
     reference_temperature: float | None,
-    shift: Shift | ShiftTable | None = None,
+    shift: Shift | None = None,
     by: str | None = None,
     vertical: str | float | None = None,
     leave_out: Sequence[float] = (),
-) -> tuple[MasterCurve | RelaxationTest | CreepTest, WLF | ShiftTable | None, tuple[str, ...]]:
+) -> tuple[MasterCurve | RelaxationTest | CreepTest, WLF | TabulatedShift | None, tuple[str, ...]]:
     """Return one test at one temperature, the shift of its times, and doubts about it.
 
     Parameters
@@ -69,7 +68,7 @@ def at_one_temperature(
             vertical=vertical,
         )
         cautions = [contradiction(curve)]
-        if curve.shifts is not None and len(curve.shifts) > 1:
+        if curve.shifts is not None:
             cautions += superposition(several, curve.shifts)
         table, doubts = curve.shifts, tuple(words for words in cautions if words)
     elif reference_temperature is None:

@@ -8,9 +8,8 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import ShiftTable
 from viscotack.model.materials.passport import Evidence, Origin, Passport
-from viscotack.model.materials.shift import Shift
+from viscotack.model.materials.shift import Shift, TabulatedShift
 
 from .observed import Observed
 from .shift_laws import nearest_law
@@ -230,7 +229,7 @@ def issued(
     report: FitReport,
     *,
     name: str,
-    shift: Shift | ShiftTable | None = None,
+    shift: Shift | None = None,
     reference: str = "",
     made_by: str = "",
 ) -> Passport:
@@ -242,7 +241,7 @@ def issued(
         The fit.
     name : str
         Name of the material.
-    shift : WLF, Arrhenius, TabulatedShift, ShiftTable or None
+    shift : WLF, Arrhenius, TabulatedShift or None
         Temperature dependence of its times; a table is interpolated, never extrapolated.
     reference : str
         Origin of the measurement, as text.
@@ -275,16 +274,10 @@ def issued(
     seen = report.observed
     source = seen.source
     fitted = None
-    if isinstance(shift, ShiftTable):
-        zero, rows = seen.temperature, len(shift)
-        if zero is None and rows > 1:
-            raise InputError("a table of shifts needs the temperature of the master curve [K]")
-        if zero is not None and rows > 2:
-            fitted = nearest_law(shift, reference_temperature=zero)
-        # a table of one row contains no shift
-        shift = shift.at_reference(zero) if zero is not None and rows > 1 else None
-    elif shift is not None and seen.temperature is not None:
+    if shift is not None and seen.temperature is not None:
         shift = shift.at_reference(seen.temperature)
+        if isinstance(shift, TabulatedShift) and len(shift) > 2:
+            fitted = nearest_law(shift, reference_temperature=seen.temperature)
     return Passport(
         name=name,
         material=report.material,

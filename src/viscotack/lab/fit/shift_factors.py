@@ -21,7 +21,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import GAP, FrequencySweeps, ShiftTable, levels
+from viscotack.lab.sweeps import GAP, FrequencySweeps, levels
 from viscotack.model.materials.shift import TabulatedShift
 
 from .overlap import Curve, Hold, Step, free_vertical, step_between, vertical_at
@@ -41,7 +41,7 @@ def shift_factors(
     by: str = "both",
     vertical: str | float = "none",
     temperature_uncertainty: float = THERMOMETER,
-) -> ShiftTable:
+) -> TabulatedShift:
     """Compute the shift of each temperature from the overlap of neighbouring sweeps.
 
     Parameters
@@ -65,7 +65,7 @@ def shift_factors(
 
     Returns
     -------
-    ShiftTable
+    TabulatedShift
         With the standard deviation of each shift relative to the reference. It includes the scatter
         of points and of blocks of points about the common curve, vertical shifts of the size seen
         in the data, even where none was allowed, and the thermometer; with two moduli also the
@@ -96,7 +96,7 @@ def shift_factors(
     ...     np.repeat([0, 1], 10),
     ... )
     >>> shifts = shift_factors(sweeps, reference_temperature=293.15)
-    >>> shifts.log10_shift.round(2).tolist()
+    >>> [round(value, 2) for value in shifts.values]
     [0.0, -1.0]
     """
     each = temperature_levels(sweeps)
@@ -112,7 +112,7 @@ def shifts_between(
     by: str,
     vertical: str | float,
     temperature_uncertainty: float,
-) -> ShiftTable:
+) -> TabulatedShift:
     """Compute the shift of each curve, in frequency or in time; see :func:`shift_factors`.
 
     Parameters
@@ -152,7 +152,8 @@ def shifts_between(
             most = steps
         other = _summed(most, temperature, reference)[0]
         uncertainty = np.hypot(uncertainty, shift - other)
-    return ShiftTable(temperature, shift, uncertainty, None if vertical == "none" else up)
+    columns = (shift, uncertainty, () if vertical == "none" else up)
+    return TabulatedShift(reference, tuple(temperature), *map(tuple, columns))
 
 
 def steps_between(

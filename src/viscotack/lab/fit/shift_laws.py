@@ -7,19 +7,18 @@ from scipy.optimize import least_squares
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import ShiftTable
-from viscotack.model.materials.shift import WLF, Arrhenius, FittedShift, wlf_decades
+from viscotack.model.materials.shift import WLF, Arrhenius, FittedShift, TabulatedShift, wlf_decades
 
 _MISSED = 0.1  # decades: deviation from a row that is always tolerated
 _UNCERTAIN = 0.01  # decades: scatter of a shift in addition to its stated uncertainty
 
 
-def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
+def fit_wlf(table: TabulatedShift, *, reference_temperature: float) -> FittedShift:
     """Fit the WLF law to a table of shifts by weighted least squares.
 
     Parameters
     ----------
-    table : ShiftTable
+    table : TabulatedShift
         Three or more temperatures; shifts relative to any temperature.
     reference_temperature : float
         T0 of the law [K], not necessarily a row; c1 and c2 refer to it.
@@ -39,13 +38,14 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     --------
     >>> wlf = WLF(reference_temperature=293.15, c1=8.86, c2=101.6)
     >>> rows = np.array([273.15, 293.15, 313.15, 343.15])
-    >>> found = fit_wlf(ShiftTable(rows, wlf.log10_shift(rows), None), reference_temperature=293.15)
+    >>> table = TabulatedShift(293.15, rows, wlf.log10_shift(rows))
+    >>> found = fit_wlf(table, reference_temperature=293.15)
     >>> round(found.law.c1, 4), round(found.law.c2, 3)
     (8.86, 101.6)
     """
     if len(table) < 3:
         raise InputError(f"a WLF law needs three or more temperatures, got {len(table)}")
-    above = table.temperature - reference_temperature
+    above = np.array(table.temperature) - reference_temperature
     weight = 1 / _deviation(table)
     coldest = min(float(np.min(above)), 0.0)
 
@@ -55,9 +55,9 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
 
     def residual(q: Array) -> Array:
         # fit the zero as well: the table may have another reference temperature
-        return weight * (q[2] + shape(q)[0] - table.log10_shift)
+        return weight * (q[2] + shape(q)[0] - np.array(table.values))
 
-    offset = float(np.interp(reference_temperature, table.temperature, table.log10_shift))
+    offset = float(np.interp(reference_temperature, table.temperature, np.array(table.values)))
     starts = [
         [math.log(c1), math.log(c2), offset] for c1 in (5.0, 17.0, 50.0) for c2 in (20.0, 100.0)
     ]
@@ -72,18 +72,18 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     # chain rule from ln c1 and ln(c2 + coldest)
     scale = np.array([c1, c2 + coldest])
     error = scale * np.sqrt(np.diag(_covariance(best.jac, best.fun))[:2])
-    difference = table.log10_shift - best.x[2] - values
+    difference = np.array(table.values) - best.x[2] - values
     return _fit(
         WLF(reference_temperature=reference_temperature, c1=c1, c2=c2), error, table, difference
     )
 
 
-def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
+def fit_arrhenius(table: TabulatedShift, *, reference_temperature: float) -> FittedShift:
     """Fit the Arrhenius law to a table of shifts by weighted least squares.
 
     Parameters
     ----------
-    table : ShiftTable
+    table : TabulatedShift
         Two or more temperatures; shifts relative to any temperature.
     reference_temperature : float
         T0 of the law [K]; the activation energy does not depend on it.
@@ -101,7 +101,7 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedS
     Examples
     --------
     >>> rows = np.array([273.15, 293.15, 313.15])
-    >>> table = ShiftTable(rows, Arrhenius(293.15, 80e3).log10_shift(rows), None)
+    >>> table = TabulatedShift(293.15, rows, Arrhenius(293.15, 80e3).log10_shift(rows))
     >>> round(fit_arrhenius(table, reference_temperature=293.15).law.activation_energy)
     80000
     """
@@ -110,16 +110,17 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedS
     unit = np.asarray(Arrhenius(reference_temperature, 1.0).log10_shift(table.temperature))
     weight = 1 / _deviation(table)
     columns = np.column_stack((unit, np.ones(len(table))))
-    found, *_ = np.linalg.lstsq(columns * weight[:, None], table.log10_shift * weight, rcond=None)
+    values = np.array(table.values)
+    found, *_ = np.linalg.lstsq(columns * weight[:, None], values * weight, rcond=None)
     if found[0] <= 0:
         raise InputError(f"the shift rises with temperature ({found[0]:.3g} J/mol); give 1/a_T")
-    difference = table.log10_shift - columns @ found
+    difference = values - columns @ found
     covariance = _covariance(columns * weight[:, None], difference * weight)
     error = np.sqrt(np.diag(covariance)[:1])
     return _fit(Arrhenius(reference_temperature, float(found[0])), error, table, difference)
 
 
-def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShift | None:
+def nearest_law(table: TabulatedShift, *, reference_temperature: float) -> FittedShift | None:
     """Return the WLF or Arrhenius law that fits a table better; None if neither fits.
 
     Schwarz's criterion decides between the three constants of WLF (including the zero) and the two
@@ -128,7 +129,7 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShi
 
     Parameters
     ----------
-    table : ShiftTable
+    table : TabulatedShift
         Temperatures [K] and log10 a_T, with or without their uncertainty; 0.01 decades of
         scatter are added to it.
     reference_temperature : float
@@ -142,7 +143,8 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShi
     Examples
     --------
     >>> rows = np.array([273.15, 283.15, 293.15, 303.15, 313.15])
-    >>> table = ShiftTable(rows, Arrhenius(293.15, 80e3).log10_shift(rows), np.full(5, 0.02))
+    >>> values = Arrhenius(293.15, 80e3).log10_shift(rows)
+    >>> table = TabulatedShift(293.15, rows, values, np.full(5, 0.02))
     >>> type(nearest_law(table, reference_temperature=293.15).law).__name__
     'Arrhenius'
     """
@@ -158,17 +160,15 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShi
     return min(fits, key=lambda pair: pair[0])[1] if fits else None
 
 
-def _off(table: ShiftTable, law: WLF | Arrhenius) -> Array:
+def _off(table: TabulatedShift, law: WLF | Arrhenius) -> Array:
     """Return log10 a_T of the table minus the law, with the fitted zero subtracted."""
-    difference = table.log10_shift - np.asarray(law.log10_shift(table.temperature))
+    difference = np.array(table.values) - np.asarray(law.log10_shift(table.temperature))
     weight = _deviation(table) ** -2.0
     return difference - float(weight @ difference / np.sum(weight))
 
 
-def _deviation(table: ShiftTable) -> Array:
-    if table.uncertainty is None:
-        return np.full(len(table), _UNCERTAIN)
-    return np.hypot(table.uncertainty, _UNCERTAIN)
+def _deviation(table: TabulatedShift) -> Array:
+    return np.hypot(table.uncertainty or np.zeros(len(table)), _UNCERTAIN)
 
 
 def _covariance(jacobian: Array, residual: Array) -> Array:
@@ -178,11 +178,13 @@ def _covariance(jacobian: Array, residual: Array) -> Array:
     return np.asarray(excess * np.linalg.pinv(jacobian.T @ jacobian), dtype=float)
 
 
-def _fit(law: WLF | Arrhenius, error: Array, table: ShiftTable, difference: Array) -> FittedShift:
+def _fit(
+    law: WLF | Arrhenius, error: Array, table: TabulatedShift, difference: Array
+) -> FittedShift:
     worst = int(np.argmax(np.abs(difference)))
     return FittedShift(
         law,
         tuple(float(e) for e in error),
         float(np.sqrt(np.mean(difference**2))),
-        (float(table.temperature[worst]), float(difference[worst])),
+        (table.temperature[worst], float(difference[worst])),
     )

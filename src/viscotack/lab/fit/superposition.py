@@ -11,7 +11,8 @@ from numpy.polynomial import Chebyshev
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import FrequencySweeps, ShiftTable
+from viscotack.lab.sweeps import FrequencySweeps
+from viscotack.model.materials.shift import TabulatedShift
 
 from .master_curve import shifted_by
 from .overlap import Curve
@@ -23,14 +24,14 @@ _SIGMAS = 3.0
 _POINTS = 3  # smallest number of points of each sweep in the overlap for a comparison
 
 
-def superposition(sweeps: FrequencySweeps, shifts: ShiftTable) -> tuple[str, ...]:
+def superposition(sweeps: FrequencySweeps, shifts: TabulatedShift) -> tuple[str, ...]:
     """Return the contradictions to superposition of shifted sweeps where neighbours overlap.
 
     Parameters
     ----------
     sweeps : FrequencySweeps
         Measured sweeps, at two or more temperatures.
-    shifts : ShiftTable
+    shifts : TabulatedShift
         Shifts to test, from any method; interpolated between the rows of the table.
 
     Returns
@@ -54,12 +55,12 @@ def superposition(sweeps: FrequencySweeps, shifts: ShiftTable) -> tuple[str, ...
     ...     "E",
     ...     np.repeat([0, 1], 10),
     ... )
-    >>> superposition(sweeps, ShiftTable([293.15, 303.15], [0.0, -1.0], None))
+    >>> superposition(sweeps, TabulatedShift(293.15, (293.15, 303.15), (0.0, -1.0)))
     ()
     """
     levels = temperature_levels(sweeps)
     temperature = np.array([float(np.mean(level.temperature)) for level in levels])
-    along, up, _ = shifted_by(shifts, temperature, temperature, float(shifts.temperature[0]))
+    along, up, _ = shifted_by(shifts, temperature, temperature, shifts.temperature[0])
     shapely = [i for i, level in enumerate(levels) if len(level) >= FEWEST]
     curves = level_curves([levels[i] for i in shapely])
     pairs = list(pairwise(shapely))

@@ -258,6 +258,9 @@ class TabulatedShift:
         )
         self._refuse_outside(np.asarray(self.reference_temperature))
 
+    def __len__(self) -> int:
+        return len(self.temperature)
+
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
         """Return log10 a_T at temperatures [K] inside the table, in the shape given."""
         asked = temperatures("temperature", temperature)
