@@ -81,6 +81,8 @@ _FACTORS = {
     **dict.fromkeys(((unit, "s") for unit in ("sec", "secs", "sek", "seconds", "Sec")), 1.0),
 }
 _PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
+# dimensions of columns
+_TARGETS = ("Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "N*m", "m", "1")
 
 
 @dataclass(frozen=True)
@@ -209,11 +211,7 @@ def measures(unit: str, quantity: str) -> bool:
     """Return whether a unit suits a quantity; an empty unit suits all."""
     if no_unit(unit) or (quantity == "time" and is_clock_unit(unit)):
         return True
-    try:
-        scale(unit, UNITS[quantity])
-    except InputError:
-        return False
-    return True
+    return _converts(unit, UNITS[quantity])
 
 
 def nearness_to_sample(text: str) -> int:
@@ -285,15 +283,9 @@ def is_unit(text: str) -> bool:
     (True, True, False)
     """
     unit = bare(text)
-    if unit in {*_KELVIN, *_NO_UNIT, *_DEGREES, *_PER_SECOND, "%", "rpm"} or is_clock_unit(unit):
+    if unit in {*_KELVIN, *_DEGREES, *_PER_SECOND, "rpm"} or is_clock_unit(unit):
         return True
-    for target in ("Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "N*m", "m", "1"):
-        try:
-            parse(f"1 {unit}", target)
-        except ValueError:
-            continue
-        return True
-    return False
+    return any(_converts(unit, target) for target in _TARGETS)
 
 
 def kind_of_geometry(text: str) -> str | None:
@@ -391,6 +383,14 @@ def scale(unit: str, target: str) -> float:
     return parse(f"1 {unit}", target)
 
 
+def _converts(unit: str, target: str) -> bool:
+    try:
+        scale(unit, target)
+    except InputError:
+        return False
+    return True
+
+
 def same_unit(one: str, other: str) -> bool:
     """Return whether two units are equal, however they are written.
 
@@ -402,14 +402,10 @@ def same_unit(one: str, other: str) -> bool:
     one, other = bare(one), bare(other)
     if one == other or ("rad" in one) != ("rad" in other):
         return one == other
-    for target in ("K", "Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "m", "1"):
-        try:
-            if target == "K":
-                return kelvin(one) == kelvin(other)
-            return math.isclose(scale(one, target), scale(other, target))
-        except ValueError:
-            continue
-    return False
+    if {one, other} <= _KELVIN.keys():
+        return _KELVIN[one] == _KELVIN[other]
+    shared = (t for t in _TARGETS if _converts(one, t) and _converts(other, t))
+    return any(math.isclose(scale(one, t), scale(other, t)) for t in shared)
 
 
 def is_clock_unit(unit: str) -> bool:

@@ -28,20 +28,8 @@ _COLUMNS = {
 }
 # quantity held constant, its parameter, and its value where that is zero or not stated
 _STEPS = {".gt": ("strain", "gamma", 1.0), ".creep": ("stress", "stress", None)}
-# files of the same layout without a linear viscoelastic test
-_OTHERS = {
-    ".shear": "the start-up of shear flow",
-    ".uext": "the start-up of extensional flow",
-    ".shearxs": "flow-induced crystallisation",
-    ".laos": "an oscillation of large amplitude",
-    ".dls": "a dielectric spectrum",
-    ".gpc": "a distribution of molar mass",
-    ".mwd": "a distribution of molar mass",
-    ".dmwd": "a distribution of molar mass",
-    ".reac": "the molecules of a reaction",
-    ".sans": "a scattering experiment",
-    ".rouse": "the correlations of a simulated chain",
-}
+# files of the same layout without a linear viscoelastic test: other flows, molar masses, scattering
+_OTHERS = set(".shear .uext .shearxs .laos .dls .gpc .mwd .dmwd .reac .sans .rouse".split())
 _OFF = 5.0  # K largest difference between the temperatures of the file and of its points
 
 
@@ -59,8 +47,8 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
     alone = ends in _COLUMNS and _ONE.fullmatch(first)
     if not (ends in _OTHERS or _PARAMETERS.fullmatch(first) or alone):
         return None
-    if what := _OTHERS.get(ends):
-        raise file.error(f"a {ends} file of RepTate contains {what}, not a modulus")
+    if ends in _OTHERS:
+        raise file.error(f"a {ends} file of RepTate contains no linear viscoelastic test")
     pairs = (part.partition("=") for part in first.split(";"))
     parameters = {key.strip(): value.strip() for key, _, value in pairs}
     rows = [
