@@ -59,7 +59,6 @@ def read_case(
     *,
     also: Iterable[Any] = (),
     temperature: float | None = None,
-    beside: Callable[[str], Path] | None = None,
 ) -> Case:
     """Read a problem from a TOML file, in SI or with the table [groups] dimensionless.
 
@@ -68,14 +67,12 @@ def read_case(
     path : path
         File with the tables [material], [interface], [protocol] and one for the indenter: [sphere],
         [cone], [profile], [wavy-sphere], or [punch] and [layer]. Quantities are texts with units,
-        such as ``radius = "5.19 mm"``.
+        such as ``radius = "5.19 mm"``; files named in it are relative to its folder.
     also : iterable of classes
         User-defined laws, materials, shapes and bodies that the file may name by their words.
     temperature : float, optional
         Temperature of the material [K], overriding that in the file; only for a passport, within
         its measured range.
-    beside : callable, optional
-        Returns the path of a file named in a table; by default relative to the folder of the case.
 
     Returns
     -------
@@ -117,7 +114,7 @@ def read_case(
     Sphere(radius=0.001)
     """
     path = Path(path)
-    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
+    reading = Reading(str(path), known(also), path.parent.joinpath)
     problem = problem_of(read_toml(path), reading, temperature)
     if isinstance(problem, RoughCase):
         raise InputError(

@@ -1,14 +1,12 @@
 """Traction laws as tables, [interface], and as words of an option."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from viscotack.cards import Field, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
-from viscotack.model.problem.nouns import known
 from viscotack.model.problem.tables import OWN, Reading, UnknownNoun, read_as, stated
 from viscotack.model.traction import LAWS, LennardJones, Tabulated, Traction, has_rest
 
@@ -79,9 +77,7 @@ def table_of_law(law: Any, *, pure: bool = False) -> dict[str, Any]:
     return {k: v for k, v in table.items() if not (pure and k in _SCALES)}
 
 
-def law_from_words(
-    words: str, laws: Mapping[str, Any] = LAWS, beside: Callable[[str], Path] = Path
-) -> Traction:
+def law_from_words(words: str, beside: Callable[[str], Path] = Path) -> Traction:
     """Return the reduced law stated by an option: its name and, after a colon, its constants.
 
     `beside` returns the path of a file that it names.
@@ -99,10 +95,7 @@ def law_from_words(
     >>> law_from_words("gent-schultz:10,0.4:exponential:0.25").base.decay
     0.25
     """
-    return law_from_table(
-        table_of_words(words, laws),
-        Reading("the law", replace(known(), laws=laws), beside, pure=True),
-    )
+    return law_from_table(table_of_words(words), Reading("the law", beside=beside, pure=True))
 
 
 def table_of_words(words: str, laws: Mapping[str, Any] = LAWS) -> dict[str, Any]:
