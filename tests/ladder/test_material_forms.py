@@ -38,12 +38,14 @@ def test_the_two_forms_are_one_solid_to_round_off(pairs):
     solid = vt.Prony(
         rubbery_modulus=E0, branches=[(10**E, 10**t) for E, t in pairs], poisson_ratio=0.45
     )
-    series = retardation_series(solid)
-    back = relaxation_series(series)
+    elements = retardation_series(solid)
+    back = relaxation_series(
+        elements, glassy_modulus=solid.glassy_modulus, poisson_ratio=solid.poisson_ratio
+    )
     # 1/E(w) in the retardation form
     omega = np.geomspace(1e-5, 1e13, 200)
-    C, tau = np.array(series.elements).T
-    creep = 1 / series.glassy_modulus + (1 / (1 + 1j * omega[:, None] * tau)) @ C
+    C, tau = np.array(elements).T
+    creep = 1 / solid.glassy_modulus + (1 / (1 + 1j * omega[:, None] * tau)) @ C
     assert np.max(np.abs(creep * solid.complex_modulus(omega) - 1)) < 1e-13
     assert np.max(np.abs(back.complex_modulus(omega) / solid.complex_modulus(omega) - 1)) < 1e-14
     assert len(back.branches) == len(solid.branches)

@@ -35,7 +35,7 @@ from scipy.stats import norm
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Prony
-from viscotack.model.materials.conversion import RetardationSeries, relaxation_series
+from viscotack.model.materials.conversion import relaxation_series
 from viscotack.model.materials.modes import maxwell
 
 from .errors import Errors, errors
@@ -378,10 +378,9 @@ def _material(data: Observed, times: Array, weights: Array) -> Prony:
             "a Prony series needs a modulus that rises with frequency or falls with time"
         )
     if data.quantity == "creep":
-        series = RetardationSeries(
-            glassy_modulus=1 / weights[0], elements=arms, poisson_ratio=data.poisson_ratio
+        return relaxation_series(
+            arms, glassy_modulus=1 / weights[0], poisson_ratio=data.poisson_ratio
         )
-        return relaxation_series(series)
     return Prony(rubbery_modulus=weights[0], branches=arms, poisson_ratio=data.poisson_ratio)
 
 

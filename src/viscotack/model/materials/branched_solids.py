@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Pairs, cards, conform
+from viscotack.cards import Pairs, conform
 from viscotack.errors import InputError
 from viscotack.model.materials import checks
 from viscotack.model.materials.checks import like_input, nonnegative
@@ -208,8 +208,7 @@ class Prony(Solid):
 
     def __post_init__(self):
         conform(self)
-        card = cards(Prony, Pairs)["branches"].card
-        checks.store(self, branches=sorted_pairs("branches", self.branches, card))
+        checks.store(self, branches=_sorted_branches(self.branches))
 
     @property
     def glassy_modulus(self) -> float:
@@ -230,7 +229,7 @@ class Prony(Solid):
     def creep(self, time: npt.ArrayLike) -> Real:
         """Return the creep compliance [1/Pa], from glassy to rubbery, at times [s]."""
         t = nonnegative("time", time, "s")
-        C, rate = self._retardation()
+        C, rate = self.retardation()
         return like_input(1 / self.glassy_modulus - np.expm1(-t[..., None] * rate) @ C)
 
     def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
@@ -240,7 +239,7 @@ class Prony(Solid):
         return like_input(self.rubbery_modulus + maxwell(w[..., None] * tau) @ E)
 
     def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
-        C, rate = self._retardation()
+        C, rate = self.retardation()
         return compressed(
             self.modulus_ratio,
             self.rubbery_modulus * C[::-1],
@@ -257,36 +256,35 @@ class Prony(Solid):
         branches = tuple((E / E0, tau / unit) for E, tau in self.branches)
         return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
 
-    def _retardation(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    def retardation(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Return the compliances [1/Pa] and retardation rates [1/s], rates ascending."""
         E, tau = np.array(self.branches[::-1]).T
         return reciprocal(self.rubbery_modulus, E, 1 / tau)
 
 
-def sorted_pairs(name: str, given: Any, card: Pairs) -> tuple[tuple[float, float], ...]:
-    """Return the checked pairs of a size and a time of a field, sorted by time."""
-    first, second = card.units
+def _sorted_branches(given: Any) -> tuple[tuple[float, float], ...]:
+    """Return checked branches sorted by time."""
     pairs: list[tuple[float, float]] = []
     try:
-        for size, time in given:
-            size = checks.positive(f"a number of {name}", size, first)
-            pairs.append((size, checks.positive(f"a time of {name}", time, second)))
+        for modulus, time in given:
+            modulus = checks.positive("a modulus of branches", modulus, "Pa")
+            pairs.append((modulus, checks.positive("a time of branches", time, "s")))
     except (TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         raise InputError(
-            f"{name} must be pairs of numbers [{first}, {second}], {card.words}, got {given!r:.80}"
+            f"branches must be pairs of numbers, modulus [Pa] and time [s], got {given!r:.80}"
         ) from None
     if not 0 < len(pairs) <= _MOST_BRANCHES:
         raise InputError(
-            f"{name} must be 1 to {_MOST_BRANCHES:,} pairs, got {len(pairs):,}; use Elastic for a "
-            "solid without any, and ten per decade of time are sufficient for any solid"
+            f"branches must be 1 to {_MOST_BRANCHES:,} pairs, got {len(pairs):,}; use Elastic for "
+            "a solid without any, and ten per decade of time are sufficient for any solid"
         )
     pairs.sort(key=lambda pair: pair[1])
     for (_, time), (_, following) in pairwise(pairs):
         if following < time * (1 + 1e-9):
             raise InputError(
-                f"the times of {name} must differ by more than 1e-9 (relative), got {time!r} s and "
-                f"{following!r} s; merge the two by adding their sizes"
+                "the times of branches must differ by more than 1e-9 (relative), got "
+                f"{time!r} s and {following!r} s; merge the two by adding their moduli"
             )
     return tuple(pairs)

@@ -1,7 +1,7 @@
 r"""Convert between relaxation form, retardation form and approximate Prony series of a solid.
 
 A generalised Maxwell solid (parallel branches, :class:`Prony`) and a chain of Voigt elements
-(:class:`RetardationSeries`) are two forms of the same material:
+(:func:`retardation_series`) are two forms of the same material:
 
 .. math::
 
@@ -12,56 +12,18 @@ Their times differ: each retardation time is longer than its relaxation time. Th
 exact, see :mod:`viscotack.model.materials.interconversion`.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
-from viscotack.cards import Pairs, cards, conform
 from viscotack.errors import InputError
 from viscotack.model.materials import checks
-from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid, sorted_pairs
-from viscotack.model.materials.constants import GlassyModulus, PoissonRatio
+from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.model.materials.interconversion import reciprocal
 from viscotack.model.materials.material import Material
 from viscotack.model.materials.scaling import scaled
-
-
-@dataclass(frozen=True, kw_only=True)
-class RetardationSeries:
-    """Retardation form of a solid: Voigt elements in series with a spring.
-
-    Parameters
-    ----------
-    glassy_modulus : float
-        Short-time Young's modulus [Pa], that of the spring.
-    elements : sequence of (float, float)
-        Compliance C_j [1/Pa] and RETARDATION time lambda_j [s] of each element, both positive.
-        Stored as a tuple sorted by time.
-    poisson_ratio : float
-        Poisson ratio nu, between 0 and 0.5.
-
-    Examples
-    --------
-    >>> solid = StandardSolid(
-    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=2.0, poisson_ratio=0.5
-    ... )
-    >>> ((compliance, time),) = retardation_series(solid).elements
-    >>> f"{compliance:.12g} 1/Pa in {time:.12g} s"
-    '9e-07 1/Pa in 2 s'
-    """
-
-    glassy_modulus: GlassyModulus
-    elements: Annotated[
-        tuple[tuple[float, float], ...],
-        Pairs(("1/Pa", "s"), "C_j, lambda_j", "compliance and retardation time of each element"),
-    ]
-    poisson_ratio: PoissonRatio
-
-    def __post_init__(self):
-        conform(self)
-        card = cards(RetardationSeries, Pairs)["elements"].card
-        checks.store(self, elements=sorted_pairs("elements", self.elements, card))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,39 +47,44 @@ class PronyForm:
     frequencies: tuple[float, float]
 
 
-def retardation_series(material: Prony | StandardSolid) -> RetardationSeries:
-    """Convert a solid to its retardation form, exact to round-off.
+def retardation_series(material: Prony | StandardSolid) -> tuple[tuple[float, float], ...]:
+    """Return the Voigt elements of a solid, exact to round-off.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Compliance C_j [1/Pa] and RETARDATION time lambda_j [s] of each element, by time.
 
     Examples
     --------
     >>> solid = Prony(
     ...     rubbery_modulus=1e6, branches=[(5e6, 1e-3), (4e6, 1.0)], poisson_ratio=0.5
     ... )
-    >>> series = retardation_series(solid)
-    >>> [f"{C:.4g} 1/Pa in {time:.4g} s" for C, time in series.elements]
+    >>> elements = retardation_series(solid)
+    >>> [f"{C:.4g} 1/Pa in {time:.4g} s" for C, time in elements]
     ['9.968e-08 1/Pa in 0.001998 s', '8.003e-07 1/Pa in 5.004 s']
-    >>> f"{relaxation_series(series).branches[1][1]:.14g}"
+    >>> back = relaxation_series(elements, glassy_modulus=1e7, poisson_ratio=0.5)
+    >>> f"{back.branches[1][1]:.14g}"
     '1'
     """
-    solid = relaxation_form(material)
-    E, tau = np.array(solid.branches[::-1]).T
-    C, rate = reciprocal(solid.rubbery_modulus, E, 1 / tau)
-    return RetardationSeries(
-        glassy_modulus=solid.glassy_modulus,
-        elements=tuple(zip(C, 1 / rate, strict=True)),
-        poisson_ratio=solid.poisson_ratio,
-    )
+    C, rate = relaxation_form(material).retardation()
+    return tuple(zip(C[::-1].tolist(), (1 / rate[::-1]).tolist(), strict=True))
 
 
-def relaxation_series(series: RetardationSeries) -> Prony:
-    """Convert a retardation form to a Prony series, exact to round-off."""
-    C, time = np.array(series.elements).T
-    E, tau = reciprocal(1 / series.glassy_modulus, C, time)
+def relaxation_series(
+    elements: Iterable[tuple[float, float]], *, glassy_modulus: float, poisson_ratio: float
+) -> Prony:
+    """Return the Prony series of a spring [Pa] and Voigt elements, exact to round-off.
+
+    The elements are those of :func:`retardation_series`, in any order.
+    """
+    C, time = np.array(sorted(elements, key=lambda element: element[1])).T
+    E, tau = reciprocal(1 / glassy_modulus, C, time)
     return Prony(
         # a sum of positive terms, without cancellation
-        rubbery_modulus=1 / (1 / series.glassy_modulus + float(np.sum(C))),
+        rubbery_modulus=1 / (1 / glassy_modulus + float(np.sum(C))),
         branches=tuple(zip(E, tau, strict=True)),
-        poisson_ratio=series.poisson_ratio,
+        poisson_ratio=poisson_ratio,
     )
 
 

@@ -25,7 +25,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Prony
-from viscotack.model.materials.conversion import RetardationSeries, relaxation_series
+from viscotack.model.materials.conversion import relaxation_series
 
 # Largest number, and that from which solids are stretched exponentials.
 LAST, STRETCHED = 2_000_000, 1_000_000
@@ -86,12 +86,9 @@ def random_solid(number: float, modulus_ratio: float) -> Prony:
     """
     k = modulus_ratio
     weights, times = creep_spectrum(number, k)
-    series = RetardationSeries(
-        glassy_modulus=1 / k,
-        elements=tuple(zip((1 - k) * weights / weights.sum(), times, strict=True)),
-        poisson_ratio=0.0,
-    )
-    E, tau = np.array(relaxation_series(series).branches).T
+    elements = zip((1 - k) * weights / weights.sum(), times, strict=True)
+    series = relaxation_series(elements, glassy_modulus=1 / k, poisson_ratio=0.0)
+    E, tau = np.array(series.branches).T
     kept = _LEAST * E.max() < E
     branches = tuple(zip(_rounded(E[kept]), _rounded(tau[kept]), strict=True))
     return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)

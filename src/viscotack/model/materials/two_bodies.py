@@ -15,11 +15,7 @@ from __future__ import annotations
 
 from viscotack.errors import InputError
 from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
-from viscotack.model.materials.conversion import (
-    RetardationSeries,
-    relaxation_series,
-    retardation_series,
-)
+from viscotack.model.materials.conversion import relaxation_series, retardation_series
 
 # Relative difference below which two times are the same.
 _SAME = 1e-12
@@ -71,14 +67,10 @@ def effective_solid(
         part = (1 - solid.poisson_ratio**2) / (1 - nu**2)
         instantaneous += part / solid.glassy_modulus
         if not isinstance(solid, Elastic):
-            elements += [(part * C, time) for C, time in retardation_series(solid).elements]
+            elements += [(part * C, time) for C, time in retardation_series(solid)]
     if not elements:
         return Elastic(rubbery_modulus=1 / instantaneous, poisson_ratio=nu)
-    return relaxation_series(
-        RetardationSeries(
-            glassy_modulus=1 / instantaneous, elements=_merged(elements), poisson_ratio=nu
-        )
-    )
+    return relaxation_series(_merged(elements), glassy_modulus=1 / instantaneous, poisson_ratio=nu)
 
 
 def _merged(elements: list[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
