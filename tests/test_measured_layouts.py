@@ -70,6 +70,11 @@ def test_numbers_without_a_name_above_columns_must_be_identified(file):
         read_dma(file(named))
 
 
+@pytest.mark.parametrize("name", ["csv_wide", "csv_wide_within"])
+def test_lines_of_sweeps_side_by_side_may_end_with_a_separator(name, file):
+    assert_the_film(read_dma(file(lab_files.TEXTS[name].replace(b"\n", b",\n"))))
+
+
 def test_only_the_first_columns_of_reptate_count(file):
     sweeps = read_dma(file(lab_files.RHEOMETER, "film.osc"))
     assert_allclose(sweeps.storage, lab_files.PASCAL[0][8:], rtol=1e-11)
