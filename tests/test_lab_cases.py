@@ -1,5 +1,6 @@
 """Small files in the manner of instruments, which were once misread or refused, and their kinds."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -346,6 +347,11 @@ def test_the_header_of_gwyddion_is_used(tmp_path):
     assert_allclose(read_map(tmp_path / "a.txt").heights, found.heights)
     (tmp_path / "a.txt").write_text(german.replace("Height: 24", "Height: 20"), encoding="utf-8")
     with pytest.raises(InputError, match="square"):
+        read_map(tmp_path / "a.txt")
+    # a size of zero is none
+    empty = re.sub(r"(Breite|Height): [0-9,]+", r"\1: 0", german)
+    (tmp_path / "a.txt").write_text(empty, encoding="utf-8")
+    with pytest.raises(InputError, match="pixel is missing"):
         read_map(tmp_path / "a.txt")
 
 

@@ -6,7 +6,7 @@ import math
 import os
 import re
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
@@ -74,56 +74,41 @@ def read_map(
         if ending not in (".npy", *_TEXT) or (ending in _TEXT and _is_binary(path)):
             found = read_topography(path, pixel=pixel, unit=unit, periodic=periodic)
             return replace(found, notes=(*found.notes, *_doubts(found)))
-        header = _Header()
-        if ending == ".npy":
-            heights = _array(path)
-        else:
-            heights, header = _table(path)
-        sides, stated = header.sides(heights.shape), header.unit
-        for name, given, own in (("pixel", pixel, sides), ("height_unit", unit, stated)):
-            if given is not None and own and not math.isclose(given, own[0], rel_tol=_SQUARE):
-                raise InputError(f"leave {name} out: the file states {readable(own[0], 'm')}")
-        if pixel is None and not sides:
+        heights, side, own = (_array(path), None, None) if ending == ".npy" else _table(path)
+        for name, given, stated in (("pixel", pixel, side), ("height_unit", unit, own)):
+            if given is None or stated is None or math.isclose(given, stated, rel_tol=_SQUARE):
+                continue
+            raise InputError(f"leave {name} out: the file states {readable(stated, 'm')}")
+        size = side or pixel
+        if size is None:
             raise InputError("pixel is missing: the file does not state the size of a pixel")
-        size = sides[0] if sides else pixel
-        assert size is not None
-        scale = stated[0] if stated else 1.0 if unit is None else unit
+        scale = own or (1.0 if unit is None else unit)
         found = HeightMap(heights * scale, size, periodic)
         return replace(found, notes=_doubts(found))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
 
-@dataclass(frozen=True)
-class _Header:
-    """Lengths of the sides [m] along columns and rows, and unit of the heights [m], if stated."""
-
-    lengths: tuple[float, ...] = ()
-    unit: tuple[float, ...] = ()
-
-    def sides(self, shape: tuple[int, ...]) -> tuple[float, ...]:
-        """Side of a pixel [m], if the header states the size of the map."""
-        if len(self.lengths) < 2:
-            return ()
-        across, down = self.lengths[0] / shape[1], self.lengths[1] / shape[0]
-        if abs(across / down - 1) > _SQUARE:
-            raise InputError(
-                f"its pixels are {readable(across, 'm')} by {readable(down, 'm')}, and they must "
-                "be square; resample the map"
-            )
-        return (across,)
-
-
-def _header(lines: list[str]) -> _Header:
-    lengths, unit = [], ()
+def _header(lines: list[str], shape: tuple[int, ...]) -> tuple[float | None, float | None]:
+    """Return the side of a pixel and the unit of the heights [m] that a header states, if any."""
+    lengths: list[float] = []
+    unit = None
     for line in lines:
         length, own = _LENGTH.fullmatch(line), _UNIT.fullmatch(line)
         with suppress(InputError):
             if length:
                 lengths.append(parse(f"{length[1].replace(',', '.')} {length[2]}", "m"))
             elif own:
-                unit = (parse(f"1 {own[1]}", "m"),)
-    return _Header(tuple(lengths), unit)
+                unit = parse(f"1 {own[1]}", "m")
+    if len(lengths) < 2:
+        return None, unit
+    across, down = lengths[0] / shape[1], lengths[1] / shape[0]
+    if abs(across - down) > _SQUARE * down:
+        raise InputError(
+            f"its pixels are {readable(across, 'm')} by {readable(down, 'm')}, and they must be "
+            "square; resample the map"
+        )
+    return across, unit
 
 
 def _is_binary(path: Path) -> bool:
@@ -158,8 +143,8 @@ def _array(path: Path) -> npt.NDArray:
     return found.astype(float)
 
 
-def _table(path: Path) -> tuple[npt.NDArray, _Header]:
-    """Return the numbers of a text file, and its header."""
+def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
+    """Return the numbers of a text file, and side of a pixel and unit [m] in its header."""
     with open(path, encoding="utf-8-sig", errors="replace") as file:
         lines = [text.strip() for text in islice(file, 2 * MOST)]
     rows = [line for line in lines if line and not line.startswith("#")]
@@ -178,4 +163,4 @@ def _table(path: Path) -> tuple[npt.NDArray, _Header]:
         heights = np.loadtxt(cut, delimiter=separator, ndmin=2)
     except ValueError as error:
         raise InputError(f"{error}; a map has only numbers, equally many in each row") from None
-    return heights, _header([line for line in lines if line.startswith("#")])
+    return heights, *_header([line for line in lines if line.startswith("#")], heights.shape)
