@@ -114,16 +114,12 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
 
 
 def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
-    """Yield the parameters of a problem: a file, or the flags of an indenter."""
-    if option.spelling == "word":
-        words = typer.Argument(metavar=option.metavar, help=option.words, show_default=False)
-        yield _parameter("what_", str, words, needed=True)
-    only = option.spelling == "case"
-    told = option.words if only else _CASE
-    told += " Or, after a problem, a table of cases that change it." if option.table else ""
-    metavar = "CASES.csv" if option.table else "CASE.toml"
-    words = typer.Argument(metavar=metavar, help=told, show_default=False)
-    yield _parameter("case_", Path if only else Path | None, words, needed=only)
+    """Yield the parameters of a problem: words and files, and the flags of an indenter."""
+    only, needed = option.spelling == "case", option.spelling != "flags"
+    told = option.words if needed else f"{option.words} {_CASE}"
+    words = typer.Argument(metavar=option.metavar or "CASE.toml", help=told, show_default=False)
+    kind: Any = str if only else list[str] if needed else list[str] | None
+    yield _parameter("problem_", kind, words, needed=needed)
     flags = OF_FILE if only else flags_of(option.indenters)
     for name, flag in flags.items():
         if option.in_si and not flag.si:
@@ -153,7 +149,7 @@ def _run(kind: type[Request], said: dict[str, Any]) -> None:
 def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
     """Return the input for a problem: an indenter with flags, or a file."""
     flags = {n.removeprefix("of_"): x for n, x in said.items() if n.startswith("of_") and x}
-    named = [str(x) for x in (said.get("what_"), said.get("case_")) if x is not None]
+    named = [said["problem_"]] if option.spelling == "case" else list(said["problem_"] or ())
     if named[:1] == ["case"]:
         del named[0]
     found: dict[str, Any] = {}

@@ -177,7 +177,7 @@ class Run(Settings):
         """Return the plan or its shard; None for the plan in the folder."""
         from viscotack.campaign import read_plan, shard_of
 
-        changed = {name: getattr(self, name) for name in Settings.model_fields}
+        changed = self.values(*Settings.model_fields)
         if self.plan is None:
             given = [n for n, x in {**changed, "shard": self.shard}.items() if x is not None]
             if given:

@@ -91,21 +91,14 @@ class Control(Request):
             problem,
             self.slowest,
             self.fastest,
-            tolerance=self.tolerance,
-            accuracy=self.accuracy,
-            time_limit=self.time_limit,
-            progress=lambda share: caller.tell({"share": part * share}),
+            progress=lambda share: caller.share(part * share),
+            **self.values("tolerance", "accuracy", "time_limit"),
         )
         release = released = None
         if self.wanted is not None:
-            release = Release(
-                table,
-                self.wanted,
-                self.stiffness or inf,
-                self.period,
-                self.drive_limit or inf,
-            )
-            released = let_go(problem, release, accuracy=self.accuracy, time_limit=self.time_limit)
+            limits = self.stiffness or inf, self.period, self.drive_limit or inf
+            release = Release(table, self.wanted, *limits)
+            released = let_go(problem, release, **self.values("accuracy", "time_limit"))
         speed = None if release is None else release.speed
         files = {
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),

@@ -94,7 +94,7 @@ class FitMaterial(Dma, Shifting):
                 else {"output": lambda target: write_passport(passport, target)}
             ),
             pictures={"plot": lambda: draw_fit(report, passport)},
-            drawn=lambda: _drawn(report, passport) | {"words": words},
+            drawn=lambda: _drawn(report, passport),
             notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
         )
 
@@ -108,15 +108,11 @@ class FitMaterial(Dma, Shifting):
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
             self._refuse_of_sweeps(f"for the {found} test in the file")
         data, shift, cautions = self.at_one_temperature(measured, caller)
-        known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
+        known = self.values("glassy_modulus", "rubbery_modulus")
         report = fit(
             data,
-            poisson_ratio=self.poisson_ratio,
-            model=self.model,
-            arms=self.arms,
             known={name: value for name, value in known.items() if value is not None},
-            loss=self.loss,
-            level=self.level,
+            **self.values("poisson_ratio", "model", "arms", "loss", "level"),
         )
         report = allow_for_shifts(report, data, shift)
         return replace(report, cautions=(*cautions, *report.cautions)), shift
@@ -143,17 +139,11 @@ class FitMaterial(Dma, Shifting):
 
 
 def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
-    """Return the data of a fit for the page."""
+    """Return the material for the case of the page, and its passport."""
     from viscotack.model.materials.passport_file import passport_text
 
-    from .parts import drawn
     from .parts.library import material_table
 
-    issued = passport is not None
-    return {
-        "notes": report.observed.source.notes,
-        "table": material_table(report.material) if issued else None,
-        "passport": passport_text(passport) if issued else None,
-        "fit": drawn.fit(report),
-        "shifts": drawn.shifts(passport.shift) if issued else None,
-    }
+    if passport is None:
+        return {"table": None, "passport": None}
+    return {"table": material_table(report.material), "passport": passport_text(passport)}

@@ -84,14 +84,8 @@ class Wish(Request):
                         field=name,
                     )
             return forecast_edge(fit, speed, preload=self.preload)
-        return forecast_rates(
-            fit,
-            speed,
-            preload=self.preload,
-            temperature=self.temperature,
-            dwell=self.dwell,
-            approach_speed=self.approach_speed,
-        )
+        conditions = self.values("preload", "temperature", "dwell", "approach_speed")
+        return forecast_rates(fit, speed, **conditions)
 
 
 class Forecast(Wish):

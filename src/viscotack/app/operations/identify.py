@@ -63,10 +63,9 @@ class IdentifySlow(Rig):
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the elastic models to one cycle."""
-        from viscotack.identify import fitted_force, identify_slow, slow_test
+        from viscotack.identify import identify_slow, slow_test
         from viscotack.plot.interface import draw_slow_test
 
-        from .parts.json_data import drawn
         from .parts.records import slow_record
 
         found = self.survey(caller)
@@ -87,10 +86,6 @@ class IdentifySlow(Rig):
             data=lambda: slow_record(fit),
             words=lambda: _slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
-            drawn=lambda: {
-                "measured": {"at": drawn(test.at), "force": drawn(test.force)},
-                "fitted": {"at": drawn(test.at), "force": drawn(fitted_force(fit.best, test))},
-            },
             notes=refusals(found),
         )
 
@@ -119,8 +114,7 @@ class Series(Rig):
     def given(self) -> dict[str, Any]:
         """Keywords of :func:`viscotack.identify.rate_series.series_of` for any model."""
         names = ("radius", "preload", "scatter", "level", "compliance", "compliance_uncertainty")
-        known = {name: getattr(self, name) for name in names}
-        return known | {"work_of_adhesion": self.known("work_of_adhesion")}
+        return self.values(*names) | {"work_of_adhesion": self.known("work_of_adhesion")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,14 +214,8 @@ class IdentifyRates(Series, OnLayer):
             solid = solid.moved_to(self.temperature)
         found = self.survey(caller)
         names = ("temperature", "temperature_uncertainty", "curves", "growth", "history")
-        series = series_of(
-            found,
-            solid,
-            body=self.body,
-            bounded=True,
-            **self.given,
-            **{name: getattr(self, name) for name in names},
-        )
+        how = self.given | self.values(*names)
+        series = series_of(found, solid, body=self.body, bounded=True, **how)
         computed = Computed() if kept is None else Computed.read(kept)
         fit = identify_rates(series, computed=computed)
         if kept is not None:

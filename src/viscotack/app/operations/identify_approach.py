@@ -56,11 +56,9 @@ class IdentifyApproach(Rig):
         survey = self.survey(caller)
         fits, refused = identify_approaches(
             survey.cycles,
-            radius=self.radius,
             contact_modulus=modulus,
             instantaneous=instantaneous,
-            work_of_adhesion=self.work_of_adhesion,
-            level=self.level,
+            **self.values("radius", "work_of_adhesion", "level"),
         )
         if not fits:
             raise InputError("; ".join(dict.fromkeys(refused)), field="files")

@@ -110,9 +110,7 @@ class NextTest(Request):
                 study.fit,
                 candidates,
                 wanted=wanted or INTERFACE,
-                noise=self.noise,
-                repeats=self.repeats,
-                count=self.count,
+                **self.values("noise", "repeats", "count"),
             )
         rows = [_row(each) for each in found.ranked]
         what = "the forecast" if wanted else "ln(work) and ln(range)"

@@ -134,7 +134,7 @@ class ConvertMaterial(_Converted):
         return replace(_answer(passport, caller), files=files)
 
     def _constants(self) -> dict[str, float]:
-        said = {n: getattr(self, n) for n in ("rubbery_modulus", "poisson_ratio")}
+        said = self.values("rubbery_modulus", "poisson_ratio")
         return {name: value for name, value in said.items() if value is not None}
 
     def _imported(self, caller: Caller) -> "Passport":

@@ -131,6 +131,10 @@ class Caller:
     sent: bool = False
     read: list[Path] = field(default_factory=list)
 
+    def share(self, share: float) -> None:
+        """Tell the completed share."""
+        self.tell({"share": share})
+
     def file(self, name: str | os.PathLike[str]) -> Path:
         """Return the path of a named file, which no output may overwrite."""
         text = os.fspath(name)
@@ -198,6 +202,10 @@ class Request(BaseModel):
         option = option_of(type(self).model_fields["problem"])
         assert isinstance(option, Contact), "declared as a problem"
         return statement(getattr(self, "problem", None), option, caller)
+
+    def values(self, *names: str) -> dict[str, Any]:
+        """Return options by name, as keywords of what computes the answer."""
+        return {name: getattr(self, name) for name in names}
 
     def known(self, name: str) -> tuple[float, float] | None:
         """Return a known number and its standard uncertainty, of two options; None without."""

@@ -106,16 +106,8 @@ class Simulate(Request):
         from .parts.running import run
 
         stated = self.stated(caller)
-        result = run(
-            stated.problem,
-            caller.tell,
-            accuracy=self.accuracy,
-            until=self.until,
-            time_limit=self.time_limit,
-            whole=self.whole,
-            profiles=self.profiles,
-            sensitivities=self.sensitivities,
-        )
+        how = ("accuracy", "until", "time_limit", "whole", "profiles", "sensitivities")
+        result = run(stated.problem, caller.tell, **self.values(*how))
         answer = _answer(result, self.plot_kind, caller)
         files = {**answer.files, "save": lambda target: save(result, target)}
         notes = (*stated.notes, *answer.notes)

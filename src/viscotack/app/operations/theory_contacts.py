@@ -45,11 +45,8 @@ class Jkr(OnLayer):
         from viscotack.theory.elastic import relaxed
 
         body = self.body
-        solid: Any = {
-            "shape": Sphere(self.radius),
-            "contact_modulus": self.contact_modulus,
-            "work_of_adhesion": self.work_of_adhesion,
-        }
+        solid: Any = {"shape": Sphere(self.radius)}
+        solid |= self.values("contact_modulus", "work_of_adhesion")
         end, fold = film.pull_off(body=body, **solid), film.instability(body=body, **solid)
         free = relaxed.contact(AtForce(0.0), body=body, **solid)
         assert free is not None, "every JKR contact has a state without load"
@@ -62,7 +59,7 @@ class Jkr(OnLayer):
             "instability_depth_m": fold.depth,
         }
         if isinstance(body, Layer):
-            limit = {"radius": self.radius, "work_of_adhesion": self.work_of_adhesion}
+            limit = self.values("radius", "work_of_adhesion")
             record |= {
                 "over_half_space": end.force / film.pull_off(body=HalfSpace(), **solid).force,
                 "thin_limit_N": film.thin_limit(base=body.base, **limit),
@@ -156,8 +153,7 @@ class Maugis(Request):
 
     @property
     def _sphere(self) -> dict[str, Any]:
-        names = ("radius", "contact_modulus", "work_of_adhesion", "strength")
-        return {name: getattr(self, name) for name in names}
+        return self.values("radius", "contact_modulus", "work_of_adhesion", "strength")
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""

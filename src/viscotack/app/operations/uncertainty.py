@@ -111,11 +111,8 @@ class OfUncertainty(Request):
             deviations,
             sampled=sampled,
             times=times,
-            confidence=self.confidence,
-            samples=self.samples,
-            seed=self.seed,
-            budget=self.budget,
-            progress=lambda share: caller.tell({"share": share}),
+            progress=caller.share,
+            **self.values("confidence", "samples", "seed", "budget"),
         )
         rows = [
             {

@@ -62,16 +62,9 @@ class OfWindow(Request):
             maps.append(
                 window(
                     each.stamp,
-                    donor=each.donor,
-                    receiver=each.receiver,
-                    speeds=each.speeds,
-                    preloads=each.preloads,
-                    stiffness=each.stiffness,
-                    scatter=each.scatter,
-                    simulate=self.simulate,
-                    accuracy=self.accuracy,
-                    time_limit=self.time_limit,
+                    **{name: getattr(each, name) for name in _OF_MAP},
                     progress=tell,
+                    **self.values("simulate", "accuracy", "time_limit"),
                 )
             )
         scattered = stated[0].scatter is not None
@@ -118,6 +111,8 @@ def _yields(cell: Any) -> dict[str, Any]:
     return dict(zip(_YIELD, [*values, cell.transfer], strict=True))
 
 
+# Of a map of the file, as keywords.
+_OF_MAP = ("donor", "receiver", "speeds", "preloads", "stiffness", "scatter")
 _YIELD = ("pick_probability", "pick_low", "pick_high", "print_probability", "print_low")
 _YIELD += ("print_high", "transfer_probability")
 _OF_BASE = ("opens", "tension_N", "held", "method")

@@ -18,8 +18,8 @@ export function rig(host, store) {
   store.on("quick run verdict", draw);
   return { shown: draw };
 
-  function tell(found) {
-    store.rig = found;
+  function tell(read) {
+    const found = store.rig = read?.drawn;
     below.hidden = !found;
     store.say("quick");
     if (!found) return;

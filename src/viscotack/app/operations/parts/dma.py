@@ -1,7 +1,7 @@
 """Options for the files of a DMA, relaxation or creep test."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from ..options import Option, number, option, switch
 from ..request import Request
@@ -72,5 +72,4 @@ class Dma(Request):
         """Read the files: sweeps of one material, or tests over time."""
         from viscotack.lab import read
 
-        said: dict[str, Any] = {name: getattr(self, name) for name in Dma.model_fields}
-        return read(files, **said)
+        return read(files, **self.values(*Dma.model_fields))

@@ -106,26 +106,16 @@ class Rig(Request):
         "Accept curves without approach; the force zero is then taken after pull-off."
     )
 
-    @property
-    def reading(self) -> dict[str, Any]:
-        """Keywords of :func:`viscotack.lab.tack.read`."""
-        from viscotack.lab import TackOptions
-
-        names = {each.name for each in fields(TackOptions)}
-        return {name: value for name, value in self if name in names}
-
-    @property
-    def evaluation(self) -> dict[str, Any]:
-        """Keywords of :func:`viscotack.lab.tack.evaluate`."""
-        names = ("compliance", "compliance_uncertainty", "into", "compression", "retraction_only")
-        return {name: getattr(self, name) for name in names}
-
     def survey(self, caller: Caller) -> "Survey":
         """Read and evaluate the files; InputError if no cycle can be evaluated."""
+        from viscotack.lab import TackOptions
         from viscotack.lab.tack import survey
 
         files = tuple(caller.file(each) for each in self.files)
-        found = survey(files, reading=self.reading, evaluation=self.evaluation)
+        of_file = {each.name for each in fields(TackOptions)}
+        reading = {name: value for name, value in self if name in of_file}
+        names = ("compliance", "compliance_uncertainty", "into", "compression", "retraction_only")
+        found = survey(files, reading=reading, evaluation=self.values(*names))
         if not found.cycles:
             reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
             raise InputError(f"no cycle of a tack test could be read:\n  {reasons}")

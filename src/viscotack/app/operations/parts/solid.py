@@ -58,7 +58,7 @@ class Reduced(Request):
     @property
     def given(self) -> dict[str, Any]:
         """Given options of the material by name."""
-        said = {name: getattr(self, name) for name in Reduced.model_fields}
+        said = self.values(*Reduced.model_fields)
         return {name: value for name, value in said.items() if value is not None}
 
     def solid(self, caller: Caller, usual: str = "power-law") -> "Material":
