@@ -1,6 +1,5 @@
 """Routes of the API and of the page."""
 
-import asyncio
 from inspect import cleandoc
 from typing import Annotated, Any
 
@@ -21,18 +20,7 @@ from .models import Answer, JobAnswer, Refusal, SentFiles
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
 _REFUSED: dict[int | str, dict[str, Any]] = {
-    status: {"model": Refusal, "description": words}
-    for status, words in (
-        (400, "The request cannot be read."),
-        (401, "The token is missing or wrong."),
-        (403, "The request comes from elsewhere."),
-        (413, "The request is too long."),
-        (422, "The question has no answer; the words say why."),
-    )
-}
-_NO_JOB: dict[int | str, dict[str, Any]] = {404: {"model": Refusal, "description": "No such job."}}
-_FULL: dict[int | str, dict[str, Any]] = {
-    429: {"model": Refusal, "description": "There are as many jobs as there may be."}
+    "4XX": {"model": Refusal, "description": "There is no answer; the words say why."}
 }
 Id = Annotated[str, Path(max_length=64)]
 Outputs = Annotated[
@@ -65,10 +53,7 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
         return _told(engine.start(asked, outputs, files))
 
     name, word = kind.word.replace(" ", "_"), kind.word.replace(" ", "/")
-    for prefix, route, more in (
-        ("", answer, {}),
-        ("jobs/", job, {"status_code": 202, "responses": _FULL}),
-    ):
+    for prefix, route, status in (("", answer, 200), ("jobs/", job, 202)):
         route.__annotations__["asked"] = kind
         router.post(
             f"/api/{prefix}{word}",
@@ -76,7 +61,7 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
             operation_id=f"{prefix.replace('/', '_')}{name}",
             summary=summary(kind),
             description=cleandoc(kind.__doc__ or ""),
-            **more,
+            status_code=status,
         )(route)
 
 
@@ -91,7 +76,7 @@ def _check_rows(asked: Request, most: int) -> None:
 
 
 def _jobs(router: APIRouter, engine: Engine) -> None:
-    @router.get("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
+    @router.get("/api/jobs/{id}", tags=["jobs"])
     async def job(
         id: Id,
         points_from: Annotated[int, Query(ge=0, le=10**9, description="First point.")] = 0,
@@ -101,14 +86,10 @@ def _jobs(router: APIRouter, engine: Engine) -> None:
     ) -> JobAnswer:
         """Ask how far a job is, and for its answer when it is done."""
         found = engine.job(id)
-        if wait and not found.over and len(found.points) <= points_from:
-            try:
-                await asyncio.wait_for(found.news.wait(), wait)
-            except TimeoutError:
-                pass  # return the unchanged state
+        await found.news(points_from, wait)
         return _told(found, points_from)
 
-    @router.delete("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
+    @router.delete("/api/jobs/{id}", tags=["jobs"])
     async def cancel(id: Id) -> JobAnswer:
         """End a job, and forget it; its curve and answer are not sent again."""
         job = await engine.cancel(id)

@@ -31,17 +31,6 @@ from .running import carry_out
 from .writing import checked
 
 _SETTINGS = {"max_content_width": 100}
-# Placeholders of numbers by unit.
-_OF_UNIT = {
-    "m": "LENGTH",
-    "N": "FORCE",
-    "N/m": "STIFFNESS",
-    "Pa": "PRESSURE",
-    "J/m^2": "ENERGY/AREA",
-    "s": "TIME",
-    "m/s": "SPEED",
-    "K": "TEMPERATURE",
-}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
 
 
@@ -106,8 +95,8 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
         return _parameter(name, bool | None, words)
     if not needed and default not in (None, (), "", 0):
         told += f" [default: {default}]"
-    usual = "NUMBER" if info.annotation is int else "TEXT"
-    usual = _OF_UNIT.get(option.unit, "NUMBER") if isinstance(option, Number) else usual
+    usual = "NUMBER" if info.annotation is int or isinstance(option, Number) else "TEXT"
+    usual = "QUANTITY" if getattr(option, "unit", "1") != "1" else usual
     usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
     words = typer.Option(*flags, metavar=option.metavar or usual, help=told, show_default=False)
     return _parameter(name, kind if needed else kind | None, words, needed=needed)

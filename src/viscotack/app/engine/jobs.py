@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import monotonic
 from typing import Any
 
 from viscotack.app.operations.request import Request, harmless_name
@@ -19,6 +20,8 @@ from .lane import Defect, Lane
 
 # Largest number of finished jobs, and of sent files, that are kept.
 _KEPT = 64
+# Interval between two looks at a job [s].
+_LOOK = 0.05
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,6 @@ class Job:
     share: float = 0.0
     points: list[Any] = field(default_factory=list)
     error: str = ""
-    news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
     answer: dict[str, Any] | None = None
     field: str = ""
@@ -99,18 +101,19 @@ class Job:
         """Store a progress message of the task."""
         self.share = min(max(self.share, told.get("share", 0.0)), 1.0)
         self.points += told.get("points", [])
-        self.changed()
 
-    def changed(self) -> None:
-        """Wake those who wait for news."""
-        news, self.news = self.news, asyncio.Event()
-        news.set()
+    async def news(self, points: int, seconds: float) -> None:
+        """Wait for news beyond these points, so long at most."""
+        known, until = (self.state, self.share, points), monotonic() + seconds
+        while not self.over and monotonic() < until:
+            if known != (self.state, self.share, len(self.points)):
+                break
+            await asyncio.sleep(_LOOK)
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
         """Store the outcome."""
         self.state, self.error, self.answer = state, error, answer
         self.share = self.share if answer is None else 1.0
-        self.changed()
 
 
 class Engine:
@@ -215,7 +218,6 @@ class Engine:
     async def _run(self, job: Job, given: tuple[Request, tuple[str, ...], str]) -> None:
         def begun() -> None:
             job.state = "running"
-            job.changed()
 
         lane, how = self._lanes["work"], {"told": job.tell, "begun": begun}
         try:

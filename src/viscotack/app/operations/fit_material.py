@@ -64,12 +64,6 @@ class FitMaterial(Dma, Shifting):
     name: str | None = option("Name of the material; default: the file name.")
     source: str = option("Who measured it, for the passport.", default="")
 
-    def check(self) -> None:
-        """Check that options for sweeps are given for sweeps only."""
-        super().check()
-        if self.test in ("relaxation", "creep"):
-            self._refuse_of_sweeps(f"for a test of {self.test}")
-
     def answer(self, caller: Caller) -> Answer:
         """Read the files, build the master curve and fit the model."""
         from viscotack.model.materials.passport_file import write_passport
@@ -106,7 +100,12 @@ class FitMaterial(Dma, Shifting):
         if not isinstance(measured, FrequencySweeps):
             first = measured[0] if isinstance(measured, tuple) else measured
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
-            self._refuse_of_sweeps(f"for the {found} test in the file")
+            given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
+            if given:
+                raise InputError(
+                    f"{quoted(given)} cannot be used for a test of {found}; leave it out",
+                    field=given[0],
+                )
         data, shift, cautions = self.at_one_temperature(measured, caller)
         known = self.values("glassy_modulus", "rubbery_modulus")
         report = fit(
@@ -131,11 +130,6 @@ class FitMaterial(Dma, Shifting):
         # bare names: a path is valid on this machine only
         names = ", ".join(file.name for file in self.files)
         return replace(passport, origin=replace(passport.origin, file=names))
-
-    def _refuse_of_sweeps(self, why: str) -> None:
-        given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
-        if given:
-            raise InputError(f"{quoted(given)} cannot be used {why}; leave it out")
 
 
 def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:

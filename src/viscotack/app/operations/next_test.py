@@ -113,7 +113,6 @@ class NextTest(Request):
                 **self.values("noise", "repeats", "count"),
             )
         rows = [_row(each) for each in found.ranked]
-        what = "the forecast" if wanted else "ln(work) and ln(range)"
         return Answer(
             found,
             data=lambda: {
@@ -124,17 +123,6 @@ class NextTest(Request):
                 "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
                 "words": [*study.fit.words, *found.words],
             },
-            words=lambda: {
-                "words": [
-                    *([study.fit.misfit] if study.fit.misfit else []),
-                    f"standard deviation of {what}: {found.now:.2%} now; noise of a test "
-                    f"{found.noise:.2%}",
-                ],
-                "best_tests": rows[:_SHOWN],
-                "best_sequence": [_row(each) for each in found.sequence],
-                "not_ranked": list(dict.fromkeys(why for _, why in found.refused)),
-                "notes": found.words,
-            },
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),
@@ -143,7 +131,6 @@ class NextTest(Request):
 
 # What a trial is, as columns.
 _TRIAL = ("speed_m_per_s", "preload_N", "radius_m", "dwell_s", "approach_speed_m_per_s")
-_SHOWN = 8  # tests in the text
 
 
 def _row(one: Any) -> dict[str, Any]:

@@ -192,21 +192,11 @@ def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
     shown = {n: x for n, x in record.items() if n not in (*_UNSAID, *result.groups.inputs)}
     if len(record["cycles"]) < 2 and all(x["snap_in_depth"] is None for x in record["cycles"]):
         del shown["cycles"]  # the pull-off says it all
-    if began := record["shallow_start"]:
-        shown["shallow_start"] = (
-            f"begun at {began['depth']:.5g} h0 and not {began['asked']:.4g} h0, which changes the "
-            f"force by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, the "
-            f"depth by {began['shift']:.1g} h0; curve and time begin there"
-        )
-    del shown["error_estimate"], shown["wall_time_s"]
     relative = {"force": f"pull_off_{result.problem.outputs.name_of('force')}"}
     relative["work"] = "work_to_pull_off"
-    for name, error in (record["error_estimate"] or {}).items():
+    for name, error in (shown.pop("error_estimate") or {}).items():
         known = relative.get(name)
         shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
-    if record["error_estimate"] is None:
-        shown["numerical_error"] = "not known: no coarser run to compare with"
-    shown["wall_time_s"] = record["wall_time_s"]
     if (found := result.sensitivities) is not None:
         first = next(iter(found.elasticities.values()), {})
         shown["sensitivities"] = [

@@ -1,6 +1,7 @@
 """The operations ``theory jkr``, ``disc``, ``maugis`` and ``crack-contact``: no simulation."""
 
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -12,11 +13,6 @@ from .parts.layer import OnLayer
 from .parts.record_words import read
 from .parts.tables import write_table
 from .request import Answer, Caller, Request
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from viscotack.simulate.crack_contact.by_crack import CrackContact
 
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0)
 _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0)
@@ -212,29 +208,11 @@ class OfCrack(Request):
         assert isinstance(problem, Problem | Groups), "stated as that of a sphere"
         found = crack_contact(problem)
         record = summary(found)
-        return Answer(
-            found,
-            data=lambda: record,
-            files={"curve": lambda target: write_table(read(found, *_HISTORY), target)},
-            pictures={"plot": lambda: _drawn(found)},
-            notes=stated.notes,
-        )
+        labels = ("depth / h0", "force / (1.5 pi R dg0)")
+        answer = closed_form(found, record, (found.depth, found.force), labels)
+        files = {"curve": lambda target: write_table(read(found, *_HISTORY), target)}
+        return replace(answer, files=files, notes=stated.notes)
 
 
 # Columns of the history.
 _HISTORY = ("time", "depth", "force", "contact_radius", "edge_speed", "amplification", "move")
-
-
-def _drawn(found: "CrackContact") -> "Figure":
-    from matplotlib.figure import Figure
-
-    figure = Figure(layout="constrained")
-    axes = figure.subplots()
-    axes.plot(found.depth, found.force)
-    if found.depth_at_pull_off is not None and found.pull_off_force is not None:
-        band = found.band * found.pull_off_force
-        axes.errorbar(found.depth_at_pull_off, -found.pull_off_force, yerr=band, fmt="o", capsize=3)
-    axes.set_xlabel("depth / h0")
-    axes.set_ylabel("force / (1.5 pi R dg0)")
-    axes.axhline(0.0, color="0.7", linewidth=0.8)
-    return figure
