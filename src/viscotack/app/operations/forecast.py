@@ -65,6 +65,7 @@ class Wish(Request):
         "Dwell time under the preload; default: full relaxation. Needs --approach-speed.", "s"
     )
     approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s")
+    time_limit: HowLong = None
 
     def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""
@@ -105,8 +106,6 @@ class Forecast(Wish):
         picture(),
     )
 
-    time_limit: HowLong = None
-
     def answer(self, caller: Caller) -> Answer:
         """Fit the series of the study and forecast from it."""
         from viscotack.plot.interface import draw_rate_series
@@ -134,8 +133,6 @@ class Report(Wish):
 
     word: ClassVar = "report"
     outputs: ClassVar = (main_file("The page, FILE.html.", ".html", ".htm", needed=True),)
-
-    time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
         """Fit, forecast and render the page."""

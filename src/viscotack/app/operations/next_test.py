@@ -87,7 +87,7 @@ class NextTest(Request):
         from .parts.tables import rows_as_csv
 
         candidates = [
-            Trial(v, load, radius, dwell, None if dwell is None else self.approach_speed)
+            Trial(v, load, radius, dwell, self.approach_speed)
             for v, load, radius, dwell in product(
                 [v for some in self.speed for v in some],
                 self.preload or (None,),
@@ -95,8 +95,6 @@ class NextTest(Request):
                 self.dwell or (None,),
             )
         ]
-        if self.approach_speed is not None and not self.dwell:
-            raise InputError("`approach_speed` needs dwell")
         wanted = [
             Trial(v, self.forecast_preload, self.forecast_radius)
             for some in self.forecast_speed

@@ -15,6 +15,8 @@ from viscotack.cards import Quantity, plausible
 from viscotack.errors import InputError
 from viscotack.units import is_number, parse
 
+_OBJECT = {"type": "object"}
+
 
 @dataclass(frozen=True)
 class Option:
@@ -177,19 +179,7 @@ class Rows(_Read):
     """
 
     form: ClassVar = "rows"
-    schema: ClassVar = {
-        "anyOf": [
-            {"type": "string", "maxLength": 200},
-            {
-                "type": "array",
-                "items": {
-                    "type": "object",
-                    "additionalProperties": {"type": ["number", "string"], "maxLength": 200},
-                },
-                "minItems": 1,
-            },
-        ]
-    }
+    schema: ClassVar = {"anyOf": [{"type": "string"}, {"type": "array", "items": _OBJECT}]}
 
     elsewhere: bool = field(default=False, kw_only=True)
 
@@ -225,12 +215,7 @@ class Contact(_Read):
     """
 
     form: ClassVar = "problem"
-    schema: ClassVar = {
-        "anyOf": [
-            {"type": "object", "description": "Tables of a case, or the flags of an indenter."},
-            {"type": "string", "maxLength": 200, "description": "Name of a case file."},
-        ]
-    }
+    schema: ClassVar = {"anyOf": [_OBJECT, {"type": "string"}]}
 
     argument: bool = field(default=True, kw_only=True)
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 # Programs whose input is written and read.
 Code = Literal["abaqus", "ansys", "comsol"]
-# Of these the input states modulus and Poisson ratio.
-_STATING = ("abaqus", "ansys")
 
 
 def _band(value: Any) -> tuple[float, float]:
@@ -111,10 +109,6 @@ class ConvertMaterial(_Converted):
             raise InputError("`code` takes a file of another program, not a material of ours")
         elif (self.pressure_unit is None) != (self.time_unit is None):
             raise InputError("give both `pressure_unit` and `time_unit`")
-        elif constants and self.code in _STATING:
-            raise InputError(
-                f"input of {self.code} holds modulus and Poisson ratio; leave them out"
-            )
         if self.frequencies is not None and not self.prony:
             raise InputError("frequencies go with prony", field="frequencies")
 

@@ -1,6 +1,5 @@
 """Options for the files of a tack tester or microscope."""
 
-from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -35,29 +34,15 @@ def _sign(value: Any) -> int:
     return sign
 
 
-def _unit_of(quantity: str) -> Callable[[Any], str]:
-    """Return a function that checks the unit of a quantity: "force", "travel" or "time"."""
-
-    def read(words: Any) -> str:
-        from viscotack.lab.formats.headings import UNITS, scale
-
-        if not isinstance(words, str):
-            raise InputError(f"must be a unit, got {words!r:.60}")
-        scale(words, UNITS[quantity])
-        return words
-
-    return read
-
-
 class Rig(Request):
     """A request with files of a rig, and what describes them and the rig itself."""
 
     files: Files
 
     format: str | None = option("Format of the files, if it is not detected.")
-    force_unit: str | None = text("Unit such as mN, if not in the file.", to=_unit_of("force"))
-    length_unit: str | None = text("Unit such as um, if not in the file.", to=_unit_of("travel"))
-    time_unit: str | None = text("Unit such as s, if not in the file.", to=_unit_of("time"))
+    force_unit: str | None = option("Unit such as mN, if not in the file.")
+    length_unit: str | None = option("Unit such as um, if not in the file.")
+    time_unit: str | None = option("Unit such as s, if not in the file.")
     force_column: str | None = option("Heading or number of the force column, if not detected.")
     position_column: str | None = option(
         "Heading or number of the gap, depth or travel column, if there are several."
