@@ -111,16 +111,18 @@ class NextTest(Request):
                 **self.values("noise", "repeats", "count"),
             )
         rows = [_row(each) for each in found.ranked]
+        record = {
+            "now": found.now,
+            "noise": found.noise,
+            "tests": rows,
+            "sequence": [_row(each) for each in found.sequence],
+            "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
+            "words": [*study.fit.words, *found.words],
+        }
         return Answer(
             found,
-            data=lambda: {
-                "now": found.now,
-                "noise": found.noise,
-                "tests": rows,
-                "sequence": [_row(each) for each in found.sequence],
-                "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
-                "words": [*study.fit.words, *found.words],
-            },
+            data=lambda: record,
+            words=lambda: record | {"tests": rows[:_SHOWN]},
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),
@@ -129,6 +131,9 @@ class NextTest(Request):
 
 # What a trial is, as columns.
 _TRIAL = ("speed_m_per_s", "preload_N", "radius_m", "dwell_s", "approach_speed_m_per_s")
+
+
+_SHOWN = 8  # tests in the text
 
 
 def _row(one: Any) -> dict[str, Any]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from viscotack.errors import InputError
 
 from ..options import File, number, option, switch, text
-from ..request import Caller, Request
-from .dma import Where
+from ..request import Caller
+from .dma import OfFiles
 
 if TYPE_CHECKING:
     from viscotack.lab.tack import Survey
@@ -34,22 +34,18 @@ def _sign(value: Any) -> int:
     return sign
 
 
-class Rig(Request):
+class Rig(OfFiles):
     """A request with files of a rig, and what describes them and the rig itself."""
 
     files: Files
 
-    format: str | None = option("Format of the files, if it is not detected.")
     force_unit: str | None = option("Unit such as mN, if not in the file.")
     length_unit: str | None = option("Unit such as um, if not in the file.")
-    time_unit: str | None = option("Unit such as s, if not in the file.")
     force_column: str | None = option("Heading or number of the force column, if not detected.")
     position_column: str | None = option(
         "Heading or number of the gap, depth or travel column, if there are several."
     )
     time_column: str | None = option("Heading or number of the time column, if not detected.")
-    decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
-    where: Where = None
     nominal_speed: float | None = number(
         'Nominal speed, "10 um/s", if a file has no time; it is not checked.', "m/s"
     )
@@ -59,10 +55,6 @@ class Rig(Request):
     sensitivity: float | None = number(
         'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it (NT-MDT).',
         "m/A",
-    )
-    temperature_in_name: bool = switch(
-        "Read the temperature from the name of each file, as in probe_25C.csv; default: from "
-        "a column or a line above the columns with a unit."
     )
     compliance: float | None = number(
         'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
