@@ -58,7 +58,7 @@ def _parameters(kind: type[Request]) -> Iterator[inspect.Parameter]:
             yield _of_option(name, option, info)
     for output in kind.outputs:
         flags = output.flags or (f"--{output.name}",)
-        words = typer.Option(*flags, metavar=output.metavar, help=output.words, show_default=False)
+        words = typer.Option(*flags, metavar="FILE", help=output.words, show_default=False)
         needed = output.needed
         yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
     if kind.takes_own:
@@ -156,8 +156,9 @@ def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
             if flags:
                 raise InputError(f"{tables[0]} is a table of cases; leave out {quoted(flags)}")
             return found
-    if files and not Path(files[0]).suffix and option.expected:
-        raise InputError(f"{option.expected}, got {files[0]!r}")
+    if files and not Path(files[0]).suffix and option.spelling == "word":
+        known = ", ".join(option.indenters)
+        raise InputError(f"give one of {known}, or a file CASE.toml, got {files[0]!r}")
     of_word = {"indenter": words[0]} if words else {}
     if files:
         return found | {"problem": {"case": files[0], **of_word, **flags}}

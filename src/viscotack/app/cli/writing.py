@@ -108,7 +108,7 @@ def finish(
             failed = True
         else:
             if not to_output:
-                typer.echo(f"{output.done} {file}", err=True)
+                typer.echo(f"wrote {file}", err=True)
     for note in answer.notes:
         typer.echo(harmless(note), err=True)
     text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)

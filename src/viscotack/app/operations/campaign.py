@@ -99,14 +99,10 @@ class DescribePlan(Request):
 class Settings(Request):
     """Options that replace the settings of a plan; `CaseSettings` checks their ranges."""
 
-    accuracy: float | None = number("Relative error of the pull-off force.", metavar="RELATIVE")
-    until: Literal["pull-off", "detached"] | None = option(
-        "End of each case.", metavar="pull-off|detached"
-    )
-    time_limit: float | None = number('Longest wall time of a case, "10 min".', "s", metavar="TIME")
-    memory_limit: float | None = number(
-        'Most memory of a case, "400 MB".', "byte", metavar="MEMORY"
-    )
+    accuracy: float | None = number("Relative error of the pull-off force.")
+    until: Literal["pull-off", "detached"] | None = option("End of each case.")
+    time_limit: float | None = number('Longest wall time of a case, "10 min".', "s")
+    memory_limit: float | None = number('Most memory of a case, "400 MB".', "byte")
 
 
 class Run(Settings):
@@ -128,12 +124,8 @@ class Run(Settings):
         f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True
     )
     out: Path = file_name("Folder of the campaign; created if missing.", metavar="DIR", default=...)
-    workers: int = option(
-        "Processes on this machine, one thread each.", metavar="N", default=1, ge=1
-    )
-    scheduler: str | None = option(
-        'A Dask scheduler with workers, "tcp://host:8786".', metavar="ADDRESS"
-    )
+    workers: int = option("Processes on this machine, one thread each.", default=1, ge=1)
+    scheduler: str | None = option('A Dask scheduler with workers, "tcp://host:8786".')
     shard: str | None = option(
         "Part of the plan, for a job array; campaign merge combines them.", metavar="K/N"
     )

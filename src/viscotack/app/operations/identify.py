@@ -56,8 +56,7 @@ class IdentifySlow(Rig):
     )
     material: Any = named(
         "Passport or published name of the solid, to check that the test was slow; default: "
-        "not checked.",
-        metavar="PASSPORT",
+        "not checked."
     )
     level: Level = 0.9
 
@@ -157,11 +156,7 @@ class IdentifyRates(Series, OnLayer):
 
     word: ClassVar = "identify rates"
     outputs: ClassVar = (
-        main_file(
-            "Write the study, for `viscotack forecast` and `viscotack report`.",
-            ".toml",
-            metavar="STUDY",
-        ),
+        main_file("Write the study, for `viscotack forecast` and `viscotack report`.", ".toml"),
         picture(),
         picture("Draw the posterior of the interface.", "corner"),
     )
@@ -247,7 +242,7 @@ class IdentifyEdge(Series):
 
     word: ClassVar = "identify edge"
     outputs: ClassVar = (
-        main_file("Write the study, for `viscotack forecast`.", ".toml", metavar="STUDY"),
+        main_file("Write the study, for `viscotack forecast`.", ".toml"),
         picture(),
         picture("Draw the posterior of the law.", "corner"),
     )

@@ -33,8 +33,7 @@ class IdentifyApproach(Rig):
     )
     material: Any = named(
         "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
-        "once is the other limit.",
-        metavar="PASSPORT",
+        "once is the other limit."
     )
     work_of_adhesion: float | None = number(
         'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"

@@ -154,6 +154,7 @@ class Named(_Read):
     """A passport: an object, the name of a published one, a file, or the text of [material]."""
 
     form: ClassVar = "named"
+    metavar: str = field(default="PASSPORT", kw_only=True)
 
     def read(self, value: Any) -> Any:
         """Return the object, or its name."""
@@ -209,9 +210,8 @@ class Contact(_Read):
         Whether flags state it in SI alone.
     rough : bool
         Whether a file of ``viscotack rough`` is accepted, which states a map of heights.
-    table, expected : str
-        Option that receives the name of a table given in place of the problem, and what else may
-        stand there.
+    table : str
+        Option that receives the name of a table given in place of the problem.
     """
 
     form: ClassVar = "problem"
@@ -224,7 +224,6 @@ class Contact(_Read):
     in_si: bool = field(default=False, kw_only=True)
     rough: bool = field(default=False, kw_only=True)
     table: str = field(default="", kw_only=True)
-    expected: str = field(default="", kw_only=True)
 
     def read(self, value: Any) -> Any:
         """Return the problem as it was given; the answer reads it."""
@@ -270,8 +269,6 @@ class Output:
         "text", "picture" or "binary".
     flags : tuple of str
         Command-line options, if not ``--name``.
-    metavar, done : str
-        Placeholder in the help text, and message after writing.
     needed : bool
         Whether the output is required.
     usual : str
@@ -284,8 +281,6 @@ class Output:
     words: str
     kind: Literal["text", "picture", "binary"] = "text"
     flags: tuple[str, ...] = ()
-    metavar: str = "FILE"
-    done: str = "wrote"
     needed: bool = False
     usual: str = ""
     endings: tuple[str, ...] = ()
@@ -310,7 +305,7 @@ def main_file(words: str, *endings: str, **more: Any) -> Output:
 def picture(words: str = "Draw.", name: str = "plot") -> Output:
     """Declare a figure as output."""
     words = f"{words.removesuffix('.')} to a .png, .pdf or .svg file."
-    return Output(name, words, "picture", done="drew")
+    return Output(name, words, "picture")
 
 
 def option_of(info: FieldInfo) -> Option:

@@ -72,7 +72,6 @@ class Predict(Request):
         indenters=("sphere", "punch"),
         spelling="word",
         table="cases",
-        expected="predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv",
     )
     cases: Path | tuple[Mapping[str, Any], ...] | None = rows(
         "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "

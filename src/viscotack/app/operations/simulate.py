@@ -70,7 +70,6 @@ class Simulate(Request):
             "Save all of the result, for viscotack show.",
             "binary",
             flags=("--save", "-o"),
-            done="saved",
             endings=(".npz",),
         ),
     )
@@ -80,7 +79,6 @@ class Simulate(Request):
         metavar="sphere|punch|profile|disc|CASE.toml",
         indenters=INDENTERS,
         spelling="word",
-        expected="give sphere, punch, profile or disc, or a file CASE.toml",
         default=...,
     )
     until: Until = "detached"

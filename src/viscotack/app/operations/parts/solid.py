@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 # How a text begins that states a solid itself.
 TABLE = "[material]"
 _WORDS = "A material passport, or the name of a published material such as pdms-10-1"
-APassport = Annotated[Any, Named(f"{_WORDS}.", metavar="PASSPORT", argument=True)]
-Solid = Annotated[Any, Named(f"{_WORDS}; or the text of a table {TABLE}.", metavar="PASSPORT")]
+APassport = Annotated[Any, Named(f"{_WORDS}.", argument=True)]
+Solid = Annotated[Any, Named(f"{_WORDS}; or the text of a table {TABLE}.")]
 
 
 def passport_of(given: "str | Passport", caller: Caller) -> "Passport":
