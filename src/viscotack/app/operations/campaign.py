@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from viscotack.errors import InputError
 
 from .flags import INDENTERS
-from .options import File, Output, contact, csv_file, file_name, number, option, switch
+from .options import File, binary_file, contact, csv_file, file_name, number, option, switch
 from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
@@ -238,8 +238,8 @@ class Export(Request):
     word: ClassVar = "campaign export"
     outputs: ClassVar = (
         csv_file(),
-        Output("parquet", "Write a Parquet file.", "binary", endings=(".parquet",)),
-        Output("mat", "Write a MATLAB file.", "binary", endings=(".mat",)),
+        binary_file("parquet", "Write a Parquet file.", ".parquet"),
+        binary_file("mat", "Write a MATLAB file.", ".mat"),
         csv_file("Write the failures.", "failures"),
     )
     local: ClassVar = _OF_FOLDERS

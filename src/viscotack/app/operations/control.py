@@ -7,7 +7,7 @@ from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
-from .options import Output, contact, csv_file, number, option, picture
+from .options import Output, binary_file, contact, csv_file, number, option, picture
 from .parts.record_words import read, rows_of
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
@@ -35,11 +35,10 @@ class Control(Request):
         Output(
             "c", "Write force, pull-off force and controller as a header of C99.", endings=(".h",)
         ),
-        Output(
+        binary_file(
             "fmu",
             "Write an FMU for co-simulation, FMI 3.0, by the C compiler of this machine.",
-            "binary",
-            endings=(".fmu",),
+            ".fmu",
         ),
         csv_file("Write a row for each speed: pull-off force and travels."),
         csv_file("Write a row for each tick of the release.", "ticks"),

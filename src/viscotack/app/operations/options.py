@@ -204,8 +204,6 @@ class Contact(_Read):
     spelling : str
         On the command line the indenter is an argument ("word") or follows from the flags
         ("flags"), or only a case file is accepted ("case").
-    whole : bool
-        Whether a case file with any indenter is accepted.
     in_si : bool
         Whether flags state it in SI alone.
     rough : bool
@@ -220,7 +218,6 @@ class Contact(_Read):
     argument: bool = field(default=True, kw_only=True)
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
     spelling: Literal["flags", "word", "case"] = field(default="flags", kw_only=True)
-    whole: bool = field(default=True, kw_only=True)
     in_si: bool = field(default=False, kw_only=True)
     rough: bool = field(default=False, kw_only=True)
     table: str = field(default="", kw_only=True)
@@ -300,6 +297,11 @@ def csv_file(words: str = "Write a table.", name: str = "csv") -> Output:
 def main_file(words: str, *endings: str, **more: Any) -> Output:
     """Declare the file of ``-o``."""
     return Output("output", words, flags=("-o", "--output"), endings=endings, **more)
+
+
+def binary_file(name: str, words: str, ending: str, *flags: str) -> Output:
+    """Declare a binary file as output."""
+    return Output(name, words, "binary", flags, endings=(ending,))
 
 
 def picture(words: str = "Draw.", name: str = "plot") -> Output:

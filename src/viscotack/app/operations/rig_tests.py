@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
-from .options import Output, csv_file, number, picture
+from .options import binary_file, csv_file, number, picture
 from .parts.json_data import drawn
 from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
@@ -38,12 +38,11 @@ class ReadTests(Rig, ShiftLaw):
             "- is standard output.",
             "curves",
         ),
-        Output(
+        binary_file(
             "xlsx",
             "Write a workbook FILE.xlsx of cycles, repeats by speed and rejected files, with units "
             "in the headings.",
-            "binary",
-            endings=(".xlsx",),
+            ".xlsx",
         ),
         picture(),
     )

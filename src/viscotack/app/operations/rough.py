@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .options import Output, csv_file, file_name, option, picture, switch
+from .options import binary_file, csv_file, file_name, option, picture, switch
 from .parts.tables import rows_as_csv
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
@@ -31,18 +31,13 @@ class OfRough(Request):
     word: ClassVar = "rough"
     outputs: ClassVar = (
         csv_file("Write force, contact area and energies by time."),
-        Output(
-            "maps", "Write maps of gap and pressure to a .npz file.", "binary", endings=(".npz",)
-        ),
+        binary_file("maps", "Write maps of gap and pressure to a .npz file.", ".npz"),
         picture("Draw the force curve and the contact."),
-        Output(
-            "film", "Write the detachment as a film to a .gif file.", "binary", endings=(".gif",)
-        ),
-        Output(
+        binary_file("film", "Write the detachment as a film to a .gif file.", ".gif"),
+        binary_file(
             "movie",
             "Write the detachment as a film to an .mp4 file, by the program ffmpeg.",
-            "binary",
-            endings=(".mp4",),
+            ".mp4",
         ),
     )
     takes_own: ClassVar = True

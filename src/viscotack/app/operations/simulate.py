@@ -10,7 +10,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
 
 from .flags import INDENTERS
-from .options import Option, Output, contact, csv_file, file_name, number_of, picture, switch
+from .options import Option, binary_file, contact, csv_file, file_name, number_of, picture, switch
 from .parts.record_words import units_of
 from .request import Answer, Caller, Request
 
@@ -65,13 +65,7 @@ class Simulate(Request):
     word: ClassVar = "simulate"
     outputs: ClassVar = (
         *_FILES,
-        Output(
-            "save",
-            "Save all of the result, for viscotack show.",
-            "binary",
-            flags=("--save", "-o"),
-            endings=(".npz",),
-        ),
+        binary_file("save", "Save all of the result, for viscotack show.", ".npz", "--save", "-o"),
     )
     takes_own: ClassVar = True
     problem: Any = contact(

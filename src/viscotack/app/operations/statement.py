@@ -145,7 +145,7 @@ def _of_case(
     if not hasattr(problem, "geometry"):  # a map of heights
         return found
     wanted, indenter = given.get(_INDENTER), indenter_of(problem)
-    if wanted not in (None, indenter) or not (option.whole or indenter in option.indenters):
+    if wanted not in (None, indenter):
         command = indenter if indenter in INDENTERS else "case"
         raise InputError(f"{case} contains a {indenter}; use viscotack simulate {command} {case}")
     return found

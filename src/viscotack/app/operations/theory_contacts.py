@@ -196,7 +196,7 @@ class OfCrack(Request):
     outputs: ClassVar = (csv_file("Write the history as CSV, dimensionless.", "curve"), picture())
     takes_own: ClassVar = True
 
-    problem: Any = contact("The contact, of a sphere.", whole=False, default=...)
+    problem: Any = contact("The contact, of revolution.", default=...)
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the history."""
@@ -205,7 +205,7 @@ class OfCrack(Request):
 
         stated = self.stated(caller)
         problem = stated.problem
-        assert isinstance(problem, Problem | Groups), "stated as that of a sphere"
+        assert isinstance(problem, Problem | Groups), "of no map of heights"
         found = crack_contact(problem)
         record = summary(found)
         labels = ("depth / h0", "force / (1.5 pi R dg0)")
