@@ -28,7 +28,6 @@ from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input
 from .running import carry_out
-from .writing import checked
 
 _SETTINGS = {"max_content_width": 100}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
@@ -131,8 +130,7 @@ def _run(kind: type[Request], said: dict[str, Any]) -> None:
                 given |= _problem(option, said)
         asked = request_of(kind, given)
         files = {output: said[output.name] for output in kind.outputs}
-        files = checked(files, force=force, as_json=as_json)
-        carry_out(asked, files, own, as_json=as_json)
+        carry_out(asked, files, own, force=force, as_json=as_json)
 
 
 def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:

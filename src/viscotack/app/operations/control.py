@@ -136,11 +136,9 @@ def _record(
         "release": None,
     }
     if released is not None:
-        found["release"] = {
-            "wanted_N": released.wanted,
+        names = ("wanted_N", "pull_off_force_N", "miss")
+        found["release"] = read(released, *names) | {
             "contact_speed_m_per_s": speed,
-            "pull_off_force_N": released.pull_off_force,
-            "miss": released.miss,
             "time_s": released.time[-1],
         }
     return found

@@ -1,29 +1,16 @@
 """The operation ``next-test``: which test narrows a forecast or the interface most."""
 
 from itertools import product
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
 from .forecast import StudyFile, fitted, speeds_of
-from .options import Number, csv_file, number, option, picture, text
+from .options import csv_file, number, option, picture, text
 from .parts.record_words import read
 from .parts.rig import refusals
 from .request import Answer, Caller, Request
 from .simulate import HowLong
-
-Loads = Annotated[
-    tuple[float, ...],
-    Number("Preload of a test; can be repeated. Default: that of the series.", unit="N", above=0),
-]
-Radii = Annotated[
-    tuple[float, ...],
-    Number(
-        "Radius of the sphere of a test; can be repeated. Default: that of the series.",
-        unit="m",
-        above=0,
-    ),
-]
 
 
 class NextTest(Request):
@@ -51,8 +38,18 @@ class NextTest(Request):
         to=speeds_of,
         default=...,
     )
-    preload: Loads = ()
-    radius: Radii = ()
+    preload: tuple[float, ...] = number(
+        "Preload of a test; can be repeated. Default: that of the series.",
+        "N",
+        above=0,
+        default=(),
+    )
+    radius: tuple[float, ...] = number(
+        "Sphere radius of a test; can be repeated. Default: that of the series.",
+        "m",
+        above=0,
+        default=(),
+    )
     dwell: tuple[float, ...] = number(
         "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
         "--approach-speed.",

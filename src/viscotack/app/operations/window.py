@@ -68,12 +68,10 @@ class OfWindow(Request):
                 )
             )
         scattered = stated[0].scatter is not None
-        cells: list[dict[str, Any]] = []
-        critical: list[dict[str, Any]] = []
-        for each, found in zip(stated, maps, strict=True):
-            at = _place(each)
-            cells += [at | _cell(x) | (_yields(x) if scattered else {}) for x in found.cells]
-            critical += [at | _critical(x) for x in found.critical_speeds]
+        pairs = list(zip(map(_place, stated), maps, strict=True))
+        more = _yields if scattered else lambda cell: {}
+        cells = [at | _cell(x) | more(x) for at, found in pairs for x in found.cells]
+        critical = [at | _critical(x) for at, found in pairs for x in found.critical_speeds]
         first = _place(stated[0])
         columns = [*first, *_CELL, *(_YIELD if scattered else ())]
         return Answer(

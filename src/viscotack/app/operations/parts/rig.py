@@ -2,27 +2,17 @@
 
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from ..options import File, number, option, switch, text
+from ..options import file_name, number, option, switch, text
 from ..request import Caller
 from .dma import OfFiles
 
 if TYPE_CHECKING:
     from viscotack.lab.tack import Survey
 
-Files = Annotated[
-    tuple[Path, ...],
-    File(
-        "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
-        "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
-        "test; a folder means all files in it.",
-        metavar="FILE...",
-        argument=True,
-    ),
-]
 _SIGNS = {"+": 1, "-": -1, "1": 1, "-1": -1}
 
 
@@ -37,7 +27,14 @@ def _sign(value: Any) -> int:
 class Rig(OfFiles):
     """A request with files of a rig, and what describes them and the rig itself."""
 
-    files: Files
+    files: tuple[Path, ...] = file_name(
+        "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
+        "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
+        "test; a folder means all files in it.",
+        metavar="FILE...",
+        argument=True,
+        default=...,
+    )
 
     force_unit: str | None = option("Unit such as mN, if not in the file.")
     length_unit: str | None = option("Unit such as um, if not in the file.")
