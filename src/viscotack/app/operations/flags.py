@@ -183,7 +183,7 @@ FLAGS: Mapping[str, Flag] = {
         si="interface.strength",
     ),
     "rubbery_modulus": Flag(
-        'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; not with a passport.',
+        'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; a passport is scaled to it.',
         si="material.rubbery_modulus",
     ),
     "contact_modulus": Flag(
@@ -265,6 +265,10 @@ def table_of_solid(
 
     numbers = {name: value for name, value in said.items() if name != "model"}
     if words.endswith(".toml") or words in MATERIALS:
+        if beside := [n for n in numbers if n not in ("rubbery_modulus", "temperature")]:
+            raise InputError(
+                f"{words} defines the whole material; leave out {quoted(beside)}", field=beside[0]
+            )
         return {"passport": words, **numbers}
     if in_si:
         numbers = {"poisson_ratio": 0.5} | numbers
@@ -302,6 +306,8 @@ def named_as_flags(word: str, *, in_si: bool) -> Iterator[None]:
             of, _, key = place.partition(".")
             if key and of == table:
                 words = re.sub(rf"(?<![\w`.]){key}(?![\w`.=])", f"`{flag}`", words)
+        if "unknown key" in words:
+            words = f"this solid has no `{name}`; leave it out"
         # what most mean by a preload
         words += "; a force is `preload_force`" if name == "preload" else ""
         raise InputError(words, field=name) from None
