@@ -110,19 +110,16 @@ class ReadTests(Rig, ShiftLaw):
 
 
 def _retraction(cycle: Any) -> dict[str, Any]:
-    """Return the retraction of a cycle as it is drawn."""
+    """Return the numbers of a cycle, and its retraction as it is drawn."""
+    from .parts.records import cycle_row
+
     back = cycle.retraction
     every = max((back.stop - back.start) // _MOST, 1)
     return {
+        **cycle_row(cycle),
         "file": Path(cycle.source.path).name,
-        "cycle": cycle.number,
         "depth": drawn(cycle.depth[back][::every]),
         "force": drawn(cycle.force[back][::every]),
-        "pull_off_force": cycle.pull_off_force.value,
-        "pull_off_force_uncertainty": cycle.pull_off_force.uncertainty,
-        "speed": cycle.speed.value,
-        "speed_uncertainty": cycle.speed.uncertainty,
-        "preload": cycle.preload.value,
     }
 
 
