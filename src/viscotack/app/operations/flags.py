@@ -234,6 +234,7 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
     tables["protocol" if in_si else "groups"] = {}
     for name, value in said.items():
         table, _, key = _place(name, word, in_si=in_si).partition(".")
+        value = os.fspath(value) if isinstance(value, os.PathLike) else value
         tables.setdefault(table, {})[key] = f"apart {value}" if key == "start" else value
     if word == "disc" and not in_si:
         tables[word]["radius"] = 1.0
