@@ -15,7 +15,7 @@ from viscotack.app.operations import operations
 from viscotack.app.operations.request import Request, described, refusal, summary
 from viscotack.errors import InputError
 
-from .models import Answer, JobAnswer, Refusal, SentFiles
+from .models import Answer, Refusal, SentFiles
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
@@ -48,9 +48,9 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     async def answer(asked: Any, outputs: Outputs = (), files: Sent = "") -> Answer:
         return Answer(**await engine.ask(asked, outputs, files))
 
-    async def job(asked: Any, outputs: Outputs = (), files: Sent = "") -> JobAnswer:
+    async def job(asked: Any, outputs: Outputs = (), files: Sent = "") -> Job:
         _check_rows(asked, engine.limits.cases)
-        return _told(engine.start(asked, outputs, files))
+        return engine.start(asked, outputs, files)
 
     name, word = kind.word.replace(" ", "_"), kind.word.replace(" ", "/")
     for prefix, route, status in (("", answer, 200), ("jobs/", job, 202)):
@@ -83,23 +83,17 @@ def _jobs(router: APIRouter, engine: Engine) -> None:
         wait: Annotated[
             float, Query(ge=0, le=_LONGEST_WAIT, description="Wait for news so long [s].")
         ] = 0.0,
-    ) -> JobAnswer:
+    ) -> Job:
         """Ask how far a job is, and for its answer when it is done."""
         found = engine.job(id)
         await found.news(points_from, wait)
-        return _told(found, points_from)
+        return found.since(points_from)
 
     @router.delete("/api/jobs/{id}", tags=["jobs"])
-    async def cancel(id: Id) -> JobAnswer:
+    async def cancel(id: Id) -> Job:
         """End a job, and forget it; its curve and answer are not sent again."""
         job = await engine.cancel(id)
-        return _told(job, len(job.points), whole=False)
-
-
-def _told(job: Job, points_from: int = 0, *, whole: bool = True) -> JobAnswer:
-    told = {"points": job.points[points_from:], "points_from": points_from}
-    told["answer"] = job.answer if whole else None
-    return JobAnswer.model_validate(vars(job) | told)
+        return job.since(len(job.points), whole=False)
 
 
 def refusals(app: FastAPI) -> None:

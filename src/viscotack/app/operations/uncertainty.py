@@ -99,10 +99,6 @@ class OfUncertainty(Request):
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
         problem, sampled, times = self._known(caller)
-        if not (deviations or sampled or times):
-            raise InputError(
-                'give scatter, such as "sphere.radius 2 %", or what a passport or a study knows'
-            )
         found = uncertainty(
             problem,
             deviations,
