@@ -92,6 +92,15 @@ def page(found: "Identified", forecast: RateForecast) -> str:
     )
 
 
+_LABELS = {
+    "scatter": "residuals over their uncertainty",
+    "criterion": "criterion (the smaller the better)",
+    "series_scatter": "scatter of single tests",
+    "series_exponent": "exponent of force by speed",
+    "series_exponent_standard_error": "exponent of force by speed_standard_error",
+}
+
+
 def _facts(found: "Identified", record: dict[str, Any], repeats: SpeedTable) -> dict[str, str]:
     """Return the numbers of a study and its fit as text; the sentences have the intervals."""
     given, fit, slowest = found.fit.given, found.fit, repeats.speeds[0]
@@ -108,7 +117,8 @@ def _facts(found: "Identified", record: dict[str, Any], repeats: SpeedTable) -> 
     }
     rest = {"": record, "growth_": record["growth"] or {}, "series_": series_record(repeats)}
     for head, of in rest.items():
-        facts |= {f"{head}{name}": x for name, x in of.items() if isinstance(x, float)}
+        numbers = {f"{head}{name}": x for name, x in of.items() if isinstance(x, float)}
+        facts |= {_LABELS.get(name, name): x for name, x in numbers.items()}
     return _said(facts)
 
 
