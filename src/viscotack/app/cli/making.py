@@ -144,8 +144,9 @@ def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
     tables = [name for name in named if Path(name).suffix.lower() in endings]
     files = [name for name in named if name not in tables and name not in option.indenters]
     words = [name for name in named if name in option.indenters]
-    if len(tables) > 1 or len(files) > 1:
-        raise InputError(f"give one file of each kind, got {' and '.join(tables[1:] or files)}")
+    for several in (tables, files, words):
+        if len(several) > 1:
+            raise InputError(f"give one of each kind, got {' and '.join(several)}")
     if tables:
         if named[0] == tables[0] and len(named) > 1:
             raise InputError(f"give the problem {named[1]} before its table of cases {named[0]}")
