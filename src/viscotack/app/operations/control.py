@@ -136,9 +136,10 @@ def _record(
         "release": None,
     }
     if released is not None:
-        names = ("wanted_N", "pull_off_force_N", "miss")
-        found["release"] = read(released, *names) | {
+        found["release"] = {
+            **read(released, "wanted_N"),
             "contact_speed_m_per_s": speed,
+            **read(released, "pull_off_force_N", "miss"),
             "time_s": released.time[-1],
         }
     return found
