@@ -21,6 +21,12 @@ INDENTERS = ("sphere", "punch", "profile", "disc")
 ROUND = ("sphere", "profile", "disc")
 _BY_RADIUS = ("sphere", "disc")
 _STARTS = ("preload", "preload_force", "preload_radius", "apart")
+# What states the same as another.
+_INSTEAD = {
+    "strength": "equilibrium_gap",
+    "points": "profile_exponent",
+    "contact_modulus": "rubbery_modulus",
+}
 
 
 @dataclass(frozen=True)
@@ -226,10 +232,6 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
             "in one of the two",
             field=pure[0],
         )
-    starts = [name for name in _STARTS if name in said]
-    if len(starts) != 1:
-        of = quoted(name for name in _STARTS if name in known)
-        raise InputError(f"give exactly one of {of}, got {quoted(starts) or 'none'}")
     tables: dict[str, dict[str, Any]] = {"material": {}, "interface": {}, word: {}}
     tables["protocol" if in_si else "groups"] = {}
     for name, value in said.items():
@@ -248,7 +250,38 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
     if solid == "elastic" and not in_si and "move" not in said:
         # an elastic solid has no time: the unit is that in which the drive travels h0
         tables["groups"].setdefault("rate", 1.0)
+    _refuse_missing(word, said, tables, nouns, in_si=in_si)
     return tables
+
+
+def _refuse_missing(
+    word: str, said: Mapping[str, Any], tables: Mapping[str, Any], nouns: Any, *, in_si: bool
+) -> None:
+    """Name all flags that are missing at once; the reader names those of one table."""
+    from viscotack.cards import cards
+
+    kinds = {word: nouns.shapes[word], "interface": nouns.laws[tables["interface"]["law"]]}
+    kinds["material"] = nouns.materials.get(tables["material"].get("model"))
+    fields = [(x, n, f) for x, kind in kinds.items() if kind for n, f in cards(kind).items()]
+    needed = [f"{table}.{name}" for table, name, field in fields if field.needed]
+    needed += ["layer.thickness"] if "layer" in tables else []
+    needed += ["groups.cohesion" if word == "punch" else "groups.tabor"] * (not in_si)
+    needed += [] if "move" in said else ["protocol.speed" if in_si else "groups.rate"]
+    flags, given = _flags_by_place(word, in_si=in_si), {*said, *map(_INSTEAD.get, said)}
+    missing = [
+        flags[place]
+        for place in needed
+        if flags.get(place, word) not in (word, *given)
+        and place.partition(".")[2] not in tables[place.partition(".")[0]]
+    ]
+    starts = [name for name in _STARTS if name in said]
+    of = f"exactly one of {quoted(n for n in _STARTS if n in flags_of((word,)))}"
+    if missing:
+        more = "" if starts else f"; also give {of}"
+        verb = "are" if missing[1:] else "is"
+        raise InputError(f"{quoted(missing)} {verb} missing{more}", field=missing[0])
+    if len(starts) != 1:
+        raise InputError(f"give {of}, got {quoted(starts) or 'none'}")
 
 
 def is_in_si(said: Mapping[str, Any]) -> bool:
@@ -277,8 +310,6 @@ def table_of_solid(
         nu = parse(numbers["poisson_ratio"], "1")
         modulus = parse(numbers.pop("contact_modulus"), "Pa") * (1 - nu**2)
         numbers["rubbery_modulus"] = f"{modulus!r} Pa"
-    if in_si and "rubbery_modulus" not in numbers:
-        raise InputError("give `rubbery_modulus` or `contact_modulus`", field="rubbery_modulus")
     word, _, rest = words.partition(":")
     if word == "prony":
         return {"model": word, "file": rest, **numbers}
@@ -298,8 +329,7 @@ def named_as_flags(word: str, *, in_si: bool) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        flags = {_place(name, word, in_si=in_si): name for name in flags_of((word,))}
-        flags |= {"material.glassy_modulus": "modulus_ratio", "": ""}
+        flags = _flags_by_place(word, in_si=in_si)
         name = flags.get(error.field, error.field)
         table = error.field.partition(".")[0]
         words = re.sub(r"^the options(, \[[\w-]+\])?:? |; write for example.*", "", str(error))
@@ -312,6 +342,12 @@ def named_as_flags(word: str, *, in_si: bool) -> Iterator[None]:
         # what most mean by a preload
         words += "; a force is `preload_force`" if name == "preload" else ""
         raise InputError(words, field=name) from None
+
+
+def _flags_by_place(word: str, *, in_si: bool) -> dict[str, str]:
+    """Return the flags of an indenter by the keys that they state."""
+    found = {_place(name, word, in_si=in_si): name for name in flags_of((word,))}
+    return found | {"material.glassy_modulus": "modulus_ratio", "": ""}
 
 
 def _place(name: str, word: str, *, in_si: bool) -> str:
