@@ -189,6 +189,7 @@ def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
     for name, error in (shown.pop("error_estimate") or {}).items():
         known = relative.get(name)
         shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
+    shown["wall_time_s"] = shown.pop("wall_time_s")
     if (found := result.sensitivities) is not None:
         first = next(iter(found.elasticities.values()), {})
         shown["sensitivities"] = [
