@@ -12,8 +12,9 @@ from viscotack import (
     StandardSolid,
     read_case,
 )
-from viscotack.app.operations.flags import stated
+from viscotack.app.operations.options import Contact
 from viscotack.app.operations.request import Caller
+from viscotack.app.operations.statement import statement
 from viscotack.campaign import CaseSettings, read_plan, space_filling
 from viscotack.campaign.design import grid
 from viscotack.model.problem.kinds import KINDS
@@ -51,7 +52,9 @@ def test_a_row_of_a_csv_file_is_the_problem_that_the_flags_state(tmp_path):
     plan = read_plan(path)
     (case,) = plan.cases
     assert case.inputs == INPUTS
-    assert case.name == run_id(stated("sphere", INPUTS, Caller()).problem)
+    assert case.name == run_id(
+        statement({"indenter": "sphere", **INPUTS}, Contact(""), Caller()).problem
+    )
     assert plan.settings == CaseSettings()
 
 

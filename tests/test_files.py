@@ -82,8 +82,8 @@ def test_a_table_goes_to_standard_output_and_the_words_beside(saved, capsys):
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        (["--csv", "-", "--json"], "--json and --csv - both go to standard output"),
-        (["--save", "-"], "--save -: this file is binary"),
+        (["--csv", "-", "--json"], "--csv -: standard output"),
+        (["--save", "-"], "--save -: standard output"),
         (["--csv", "x", "--save", "./x"], "--csv x and --save x are the same file"),
         (["--plot", "x.xyz"], "the file name must end in one of"),
         (["--csv", "a.xlsx"], "--csv a.xlsx"),

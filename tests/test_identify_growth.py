@@ -66,7 +66,7 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     forecast = forecast_rates(fit, [3e-5, 2e-3])
     assert holds(forecast, forces(LAW, [3e-5, 2e-3]))
     asked = SimpleNamespace(title="", notes="", material="")
-    assert "exponent of growth" in page(
+    assert "growth exponent" in page(
         SimpleNamespace(fit=fit, survey=survey(LENS), asked=asked), forecast
     )
     shifting = replace(

@@ -57,6 +57,14 @@ def test_flags_and_a_file_give_what_python_gives(lens, capsys):
     assert answer(capsys, "sphere", lens) == answer(capsys, lens)
 
 
+def test_a_number_of_a_file_is_replaced_with_its_unit(lens, capsys):
+    by_path = answer(capsys, lens, "--set", "sphere.radius=6 mm")
+    assert by_path["problem"]["sphere"]["radius"] == 6e-3
+    assert answer(capsys, lens, "--set", "radius=6 mm") == by_path
+    for said in ("sphere.radius=6", "sphere.radius=6 kg", "sphere.radios=6 mm"):
+        assert "--set: " in wrong(capsys, lens, "--set", said)
+
+
 def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
     words = [*SPHERE, *RATE, "--compare"]
     found = answer(capsys, *words)

@@ -55,7 +55,7 @@ def test_what_is_sent_names_files_that_were_sent_with_it(word, folder):
         answer(word, folder, "branches.csv")
         return
     # it is read, and is no pad, or no curve of a rig
-    with pytest.raises(InputError, match=r"asked.toml contains a sphere|branches.csv: "):
+    with pytest.raises(InputError, match=r"needs a flat punch|branches.csv: "):
         answer(word, folder, "branches.csv")
 
 

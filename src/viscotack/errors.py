@@ -1,6 +1,8 @@
 """Exceptions for invalid input, as opposed to defects of the package."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 # Message for numbers that overflow or divide by zero, such as 1e300 squared.
 TOO_LARGE = "a number is too large or too small to compute with; check its unit"
@@ -35,6 +37,24 @@ class NotInstalled(InputError, ModuleNotFoundError):
 
 class OutOfRange(InputError):
     """A problem outside the range of a theory or surrogate; the message names the quantity."""
+
+
+# What pydantic's types of errors say.
+_WANTED = {
+    "tuple_type": "a list",
+    "string_type": "text",
+    "path_type": "the name of a file",
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "a whole number"),
+    **dict.fromkeys(("bool_type", "bool_parsing"), "true or false"),
+}
+
+
+def wrong_value(error: Mapping[str, Any]) -> str:
+    """Return what is wrong with a value, from an error of pydantic; its name stands before it."""
+    own, message = error.get("ctx", {}).get("error"), error["msg"]
+    wanted = message.removeprefix("Input should be ").removeprefix("a valid ")
+    wanted = _WANTED.get(error["type"], wanted)
+    return str(own or f"must be {wanted}, got {error['input']!r:.60}").strip()
 
 
 def install_command(extra: str) -> str:

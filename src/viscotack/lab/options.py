@@ -58,7 +58,11 @@ class FileOptions:
             kelvin(self.temperature_unit)
         for target in ("Pa", "s", "N", "m"):
             if unit := self.unit(target):
-                scale(unit, target)
+                try:
+                    scale(unit, target)
+                except InputError as error:
+                    name = _UNITS[target]
+                    raise InputError(f"`{name}`: {error}", field=name) from None
 
     def check_format(self, formats: Iterable[str]) -> None:
         """Raise an error unless the format is one of these or to be detected."""

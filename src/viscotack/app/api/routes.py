@@ -1,6 +1,5 @@
 """Routes of the API and of the page."""
 
-import asyncio
 from inspect import cleandoc
 from typing import Annotated, Any
 
@@ -16,23 +15,12 @@ from viscotack.app.operations import operations
 from viscotack.app.operations.request import Request, described, refusal, summary
 from viscotack.errors import InputError
 
-from .models import Answer, JobAnswer, Refusal, SentFiles
+from .models import Answer, Refusal, SentFiles
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
 _REFUSED: dict[int | str, dict[str, Any]] = {
-    status: {"model": Refusal, "description": words}
-    for status, words in (
-        (400, "The request cannot be read."),
-        (401, "The token is missing or wrong."),
-        (403, "The request comes from elsewhere."),
-        (413, "The request is too long."),
-        (422, "The question has no answer; the words say why."),
-    )
-}
-_NO_JOB: dict[int | str, dict[str, Any]] = {404: {"model": Refusal, "description": "No such job."}}
-_FULL: dict[int | str, dict[str, Any]] = {
-    429: {"model": Refusal, "description": "There are as many jobs as there may be."}
+    "4XX": {"model": Refusal, "description": "There is no answer; the words say why."}
 }
 Id = Annotated[str, Path(max_length=64)]
 Outputs = Annotated[
@@ -60,15 +48,12 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     async def answer(asked: Any, outputs: Outputs = (), files: Sent = "") -> Answer:
         return Answer(**await engine.ask(asked, outputs, files))
 
-    async def job(asked: Any, outputs: Outputs = (), files: Sent = "") -> JobAnswer:
+    async def job(asked: Any, outputs: Outputs = (), files: Sent = "") -> Job:
         _check_rows(asked, engine.limits.cases)
-        return _told(engine.start(asked, outputs, files))
+        return engine.start(asked, outputs, files)
 
     name, word = kind.word.replace(" ", "_"), kind.word.replace(" ", "/")
-    for prefix, route, more in (
-        ("", answer, {}),
-        ("jobs/", job, {"status_code": 202, "responses": _FULL}),
-    ):
+    for prefix, route, status in (("", answer, 200), ("jobs/", job, 202)):
         route.__annotations__["asked"] = kind
         router.post(
             f"/api/{prefix}{word}",
@@ -76,7 +61,7 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
             operation_id=f"{prefix.replace('/', '_')}{name}",
             summary=summary(kind),
             description=cleandoc(kind.__doc__ or ""),
-            **more,
+            status_code=status,
         )(route)
 
 
@@ -91,34 +76,24 @@ def _check_rows(asked: Request, most: int) -> None:
 
 
 def _jobs(router: APIRouter, engine: Engine) -> None:
-    @router.get("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
+    @router.get("/api/jobs/{id}", tags=["jobs"])
     async def job(
         id: Id,
         points_from: Annotated[int, Query(ge=0, le=10**9, description="First point.")] = 0,
         wait: Annotated[
             float, Query(ge=0, le=_LONGEST_WAIT, description="Wait for news so long [s].")
         ] = 0.0,
-    ) -> JobAnswer:
+    ) -> Job:
         """Ask how far a job is, and for its answer when it is done."""
         found = engine.job(id)
-        if wait and not found.over and len(found.points) <= points_from:
-            try:
-                await asyncio.wait_for(found.news.wait(), wait)
-            except TimeoutError:
-                pass  # return the unchanged state
-        return _told(found, points_from)
+        await found.news(points_from, wait)
+        return found.since(points_from)
 
-    @router.delete("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
-    async def cancel(id: Id) -> JobAnswer:
+    @router.delete("/api/jobs/{id}", tags=["jobs"])
+    async def cancel(id: Id) -> Job:
         """End a job, and forget it; its curve and answer are not sent again."""
         job = await engine.cancel(id)
-        return _told(job, len(job.points), whole=False)
-
-
-def _told(job: Job, points_from: int = 0, *, whole: bool = True) -> JobAnswer:
-    told = {"points": job.points[points_from:], "points_from": points_from}
-    told["answer"] = job.answer if whole else None
-    return JobAnswer.model_validate(vars(job) | told)
+        return job.since(len(job.points), whole=False)
 
 
 def refusals(app: FastAPI) -> None:

@@ -3,14 +3,7 @@
 import sys
 from collections.abc import Sequence
 from functools import lru_cache
-from importlib import import_module
 from typing import Any
-
-# Each of these modules adds its commands to the one application.
-_COMMANDS = (
-    "study",
-    "page",
-)
 
 
 @lru_cache(maxsize=1)
@@ -20,12 +13,11 @@ def application() -> Any:
     The command-line library is imported only here, because its import is slow; ``import viscotack``
     does not import it.
     """
+    from . import page, study  # noqa: F401  # each adds its command
     from .commands import application
     from .listing import add_commands
 
     add_commands()
-    for name in _COMMANDS:
-        import_module(f"viscotack.app.cli.{name}")
     return application
 
 

@@ -28,20 +28,8 @@ from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input
 from .running import carry_out
-from .writing import checked
 
 _SETTINGS = {"max_content_width": 100}
-# Placeholders of numbers by unit.
-_OF_UNIT = {
-    "m": "LENGTH",
-    "N": "FORCE",
-    "N/m": "STIFFNESS",
-    "Pa": "PRESSURE",
-    "J/m^2": "ENERGY/AREA",
-    "s": "TIME",
-    "m/s": "SPEED",
-    "K": "TEMPERATURE",
-}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
 
 
@@ -69,7 +57,7 @@ def _parameters(kind: type[Request]) -> Iterator[inspect.Parameter]:
             yield _of_option(name, option, info)
     for output in kind.outputs:
         flags = output.flags or (f"--{output.name}",)
-        words = typer.Option(*flags, metavar=output.metavar, help=output.words, show_default=False)
+        words = typer.Option(*flags, metavar="FILE", help=output.words, show_default=False)
         needed = output.needed
         yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
     if kind.takes_own:
@@ -106,24 +94,20 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
         return _parameter(name, bool | None, words)
     if not needed and default not in (None, (), "", 0):
         told += f" [default: {default}]"
-    usual = "NUMBER" if info.annotation is int else "TEXT"
-    usual = _OF_UNIT.get(option.unit, "NUMBER") if isinstance(option, Number) else usual
+    usual = "NUMBER" if info.annotation is int or isinstance(option, Number) else "TEXT"
+    usual = "QUANTITY" if getattr(option, "unit", "1") != "1" else usual
     usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
     words = typer.Option(*flags, metavar=option.metavar or usual, help=told, show_default=False)
     return _parameter(name, kind if needed else kind | None, words, needed=needed)
 
 
 def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
-    """Yield the parameters of a problem: a file, or the flags of an indenter."""
-    if option.spelling == "word":
-        words = typer.Argument(metavar=option.metavar, help=option.words, show_default=False)
-        yield _parameter("what_", str, words, needed=True)
-    only = option.spelling == "case"
-    told = option.words if only else _CASE
-    told += " Or, after a problem, a table of cases that change it." if option.table else ""
-    metavar = "CASES.csv" if option.table else "CASE.toml"
-    words = typer.Argument(metavar=metavar, help=told, show_default=False)
-    yield _parameter("case_", Path if only else Path | None, words, needed=only)
+    """Yield the parameters of a problem: words and files, and the flags of an indenter."""
+    only, needed = option.spelling == "case", option.spelling != "flags"
+    told = option.words if needed else f"{option.words} {_CASE}"
+    words = typer.Argument(metavar=option.metavar or "CASE.toml", help=told, show_default=False)
+    kind: Any = str if only else list[str] if needed else list[str] | None
+    yield _parameter("problem_", kind, words, needed=needed)
     flags = OF_FILE if only else flags_of(option.indenters)
     for name, flag in flags.items():
         if option.in_si and not flag.si:
@@ -146,14 +130,13 @@ def _run(kind: type[Request], said: dict[str, Any]) -> None:
                 given |= _problem(option, said)
         asked = request_of(kind, given)
         files = {output: said[output.name] for output in kind.outputs}
-        files = checked(files, force=force, as_json=as_json)
-        carry_out(asked, files, own, as_json=as_json)
+        carry_out(asked, files, own, force=force, as_json=as_json)
 
 
 def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
     """Return the input for a problem: an indenter with flags, or a file."""
     flags = {n.removeprefix("of_"): x for n, x in said.items() if n.startswith("of_") and x}
-    named = [str(x) for x in (said.get("what_"), said.get("case_")) if x is not None]
+    named = [said["problem_"]] if option.spelling == "case" else list(said["problem_"] or ())
     if named[:1] == ["case"]:
         del named[0]
     found: dict[str, Any] = {}
@@ -161,8 +144,9 @@ def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
     tables = [name for name in named if Path(name).suffix.lower() in endings]
     files = [name for name in named if name not in tables and name not in option.indenters]
     words = [name for name in named if name in option.indenters]
-    if len(tables) > 1 or len(files) > 1:
-        raise InputError(f"give one file of each kind, got {' and '.join(tables[1:] or files)}")
+    for several in (tables, files, words):
+        if len(several) > 1:
+            raise InputError(f"give one of each kind, got {' and '.join(several)}")
     if tables:
         if named[0] == tables[0] and len(named) > 1:
             raise InputError(f"give the problem {named[1]} before its table of cases {named[0]}")
@@ -171,8 +155,9 @@ def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
             if flags:
                 raise InputError(f"{tables[0]} is a table of cases; leave out {quoted(flags)}")
             return found
-    if files and not Path(files[0]).suffix and option.expected:
-        raise InputError(f"{option.expected}, got {files[0]!r}")
+    if files and not Path(files[0]).suffix and option.spelling == "word":
+        known = ", ".join(option.indenters)
+        raise InputError(f"give one of {known}, or a file CASE.toml, got {files[0]!r}")
     of_word = {"indenter": words[0]} if words else {}
     if files:
         return found | {"problem": {"case": files[0], **of_word, **flags}}

@@ -13,7 +13,7 @@ from viscotack.app.operations.options import Output
 from viscotack.app.operations.request import Caller, Request, answered
 from viscotack.files.text import harmless
 
-from .writing import finish
+from .writing import checked, finish
 
 # Seconds between two lines of progress.
 LINES = 10.0
@@ -24,6 +24,7 @@ def carry_out(
     files: Mapping[Output, Path | None],
     own: Iterable[str | Path],
     *,
+    force: bool,
     as_json: bool,
     study: Path | None = None,
 ) -> None:
@@ -37,6 +38,8 @@ def carry_out(
         Output -> file; None if not wanted.
     own : iterable of path
         Files with user-defined classes.
+    force : bool
+        Whether files that exist may be replaced.
     as_json : bool
         Whether the answer is printed as one JSON object.
     study : Path, optional
@@ -44,6 +47,7 @@ def carry_out(
     """
     from viscotack.model.problem.nouns import own_nouns
 
+    files = checked(files, force=force, as_json=as_json)
     wants = frozenset(output.name for output, file in files.items() if file is not None)
     paths = tuple(str(Path(file).resolve()) for file in own)
     with progress() as tell:

@@ -34,9 +34,7 @@ def study_command(
         from viscotack.app.operations.study import read_study
 
         from .running import carry_out
-        from .writing import checked
 
         study = read_study(file)
         files = {output: study.write.get(output.name) for output in study.request.outputs}
-        files = checked(files, force=force, as_json=as_json)
-        carry_out(study.request, files, own or (), as_json=as_json, study=file)
+        carry_out(study.request, files, own or (), force=force, as_json=as_json, study=file)

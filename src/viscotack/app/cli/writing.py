@@ -51,17 +51,9 @@ def checked(
     for output, file in given.items():
         flag = output.flag
         if is_standard_output(file):
-            if output.kind != "text":
-                what = "a picture" if output.kind == "picture" else "this file"
-                raise InputError(
-                    f"{flag} {file}: {what} is binary and cannot go to standard output; give a "
-                    "file name"
-                )
-            if as_json:
-                raise InputError(
-                    f"--json and {flag} {file} both go to standard output; remove one, or give "
-                    f"{flag} a file name"
-                )
+            if output.kind != "text" or as_json:
+                why = "is for text" if output.kind != "text" else "has the answer of --json"
+                raise InputError(f"{flag} {file}: standard output {why}; give a file name")
         else:
             if output.kind == "picture":
                 check_format(file)
@@ -116,7 +108,7 @@ def finish(
             failed = True
         else:
             if not to_output:
-                typer.echo(f"{output.done} {file}", err=True)
+                typer.echo(f"wrote {file}", err=True)
     for note in answer.notes:
         typer.echo(harmless(note), err=True)
     text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)

@@ -4,9 +4,10 @@ The forms are plain data from which the page creates its fields.
 """
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import Any
 
-from viscotack.cards import Field, Pairs, Quantity, cards
+from viscotack.cards import Pairs, Quantity, cards
 from viscotack.model.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.case_file import ProfilePoint
@@ -112,41 +113,24 @@ def _protocol(units: Mapping[str, str]) -> dict[str, Any]:
 
 
 def _fields(kind: Any) -> list[dict[str, Any]]:
-    found = [_field(field) for field in cards(kind).values()]
-    return found + [_listed(field) for field in cards(kind, Pairs).values()]
-
-
-def _field(field: Field) -> dict[str, Any]:
-    return _asked(field.name, field.card, optional=not field.needed)
+    found = (*cards(kind).values(), *cards(kind, Pairs).values())
+    return [_asked(field.name, field.card, optional=not field.needed) for field in found]
 
 
 def _asked(
-    key: str, card: Quantity, unit: str | None = None, *, optional: bool = False
+    key: str, card: Quantity | Pairs, unit: str = "", *, optional: bool = False
 ) -> dict[str, Any]:
-    """Return a field as plain data."""
+    """Return a field as plain data: what its card says, and an example in its unit."""
+    said = asdict(card) | {"key": key, "optional": optional}
+    if isinstance(card, Pairs):
+        return said | {"kind": "pairs"}
     unit = unit or card.unit
     example = card.example if unit == card.unit else ""
-    return {
-        "key": key,
+    return said | {
         "kind": "number",
         "unit": unit,
-        **{name: getattr(card, name) for name in ("symbol", "words", "above", "least", "most")},
         "range": card.range if card.bounded else "",
-        "optional": optional,
         "example": example or _SUGGESTED.get(unit, "1"),
-    }
-
-
-def _listed(field: Field) -> dict[str, Any]:
-    card = field.card
-    return {
-        "key": field.name,
-        "kind": "pairs",
-        "units": list(card.units),
-        "symbol": card.symbol,
-        "words": card.words,
-        "optional": not field.needed,
-        "example": card.example,
     }
 
 

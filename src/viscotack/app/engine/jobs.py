@@ -6,10 +6,13 @@ It belongs to one event loop. All computations run in the processes of :mod:`.la
 import asyncio
 import secrets
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from time import monotonic
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, Field, PrivateAttr
 
 from viscotack.app.operations.request import Request, harmless_name
 from viscotack.errors import InputError
@@ -19,6 +22,8 @@ from .lane import Defect, Lane
 
 # Largest number of finished jobs, and of sent files, that are kept.
 _KEPT = 64
+# Interval between two looks at a job [s].
+_LOOK = 0.05
 
 
 @dataclass(frozen=True)
@@ -57,38 +62,35 @@ class Unknown(InputError):
     """No job, or no files, have this id."""
 
 
-@dataclass(eq=False)
-class Job:
-    """A long-running operation, and its progress.
-
-    Attributes
-    ----------
-    id : str
-        Identifier; known only to the client that started the job.
-    kind : str
-        Word of the operation.
-    state : str
-        "queued", "running", "done", "refused", "failed" or "cancelled".
-    share : float
-        Of the work that is done.
-    points : list
-        Of the curve that grows.
-    error, field : str
-        Why it has no answer, and the option that is wrong.
-    answer : dict or None
-        What came out.
-    """
+class Job(BaseModel):
+    """State of a job; its id is known only to the client that started it."""
 
     id: str
     kind: str
-    state: str = "queued"
-    share: float = 0.0
-    points: list[Any] = field(default_factory=list)
-    error: str = ""
-    news: asyncio.Event = field(default_factory=asyncio.Event)
-    task: asyncio.Task[None] | None = None
-    answer: dict[str, Any] | None = None
-    field: str = ""
+    state: Literal["queued", "running", "done", "refused", "failed", "cancelled"] = "queued"
+    share: Annotated[float, Field(ge=0, le=1, description="Done share of the work.")] = 0.0
+    points: Annotated[
+        list[list[float | None]],
+        Field(
+            description="Of the growing curve, from `points_from` on: time, depth, force, contact "
+            "radius; in SI where the problem is."
+        ),
+    ] = []
+    points_from: int = 0
+    error: Annotated[str, Field(description="Why there is no answer; empty else.")] = ""
+    field: Annotated[str, Field(description="The option that the error names; empty else.")] = ""
+    answer: Annotated[
+        dict[str, Any] | None,
+        Field(description="The record of the operation, as its command prints it with --json."),
+    ] = None
+
+    _task: asyncio.Task[None] | None = PrivateAttr(None)
+
+    def since(self, point: int, *, whole: bool = True) -> Self:
+        """Return the state with the points from one on, and perhaps without the answer."""
+        answer = self.answer if whole else None
+        news = {"points": self.points[point:], "points_from": point, "answer": answer}
+        return self.model_copy(update=news)
 
     @property
     def over(self) -> bool:
@@ -99,18 +101,19 @@ class Job:
         """Store a progress message of the task."""
         self.share = min(max(self.share, told.get("share", 0.0)), 1.0)
         self.points += told.get("points", [])
-        self.changed()
 
-    def changed(self) -> None:
-        """Wake those who wait for news."""
-        news, self.news = self.news, asyncio.Event()
-        news.set()
+    async def news(self, points: int, seconds: float) -> None:
+        """Wait for news beyond these points, so long at most."""
+        known, until = (self.state, self.share, points), monotonic() + seconds
+        while not self.over and monotonic() < until:
+            if known != (self.state, self.share, len(self.points)):
+                break
+            await asyncio.sleep(_LOOK)
 
-    def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
+    def close(self, state: Any, *, answer: Any = None, error: str = "") -> None:
         """Store the outcome."""
         self.state, self.error, self.answer = state, error, answer
         self.share = self.share if answer is None else 1.0
-        self.changed()
 
 
 class Engine:
@@ -190,9 +193,9 @@ class Engine:
                 "try again later"
             )
         given = asked, tuple(outputs), self._folder(files)
-        job = Job(secrets.token_urlsafe(16), asked.word)
+        job = Job(id=secrets.token_urlsafe(16), kind=asked.word)
         self._jobs[job.id] = job
-        job.task = asyncio.get_running_loop().create_task(self._run(job, given))
+        job._task = asyncio.get_running_loop().create_task(self._run(job, given))
         return job
 
     def job(self, id: str) -> Job:
@@ -215,7 +218,6 @@ class Engine:
     async def _run(self, job: Job, given: tuple[Request, tuple[str, ...], str]) -> None:
         def begun() -> None:
             job.state = "running"
-            job.changed()
 
         lane, how = self._lanes["work"], {"told": job.tell, "begun": begun}
         try:
@@ -231,9 +233,9 @@ class Engine:
 
     async def _stop(self, job: Job) -> None:
         """End a job, and wait until its process is free."""
-        if job.task is not None:
-            job.task.cancel()
-            await asyncio.wait([job.task])
+        if job._task is not None:
+            job._task.cancel()
+            await asyncio.wait([job._task])
         if not job.over:
             job.close("cancelled", error="it was cancelled")
 

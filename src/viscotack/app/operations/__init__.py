@@ -33,10 +33,7 @@ SECTIONS: Mapping[str, Mapping[str, tuple[str, str]]] = {
         "theory punch": ("theory_punch", "Flat punch on a layer: stress, or thickness."),
         "theory persson-brener": ("theory_cracks", "Surface energy of a moving crack."),
         "theory greenwood": ("theory_cracks", "Surface energy of a crack with a cohesive zone."),
-        "theory steady-crack": (
-            "theory_cracks",
-            "Surface energy of a crack with its traction law.",
-        ),
+        "theory steady-crack": ("theory_cracks", "Surface energy of a crack, any traction law."),
         "theory crack-contact": ("theory_contacts", "Contact history by the steady-crack model."),
     },
     "Read measured data": {

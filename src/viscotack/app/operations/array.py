@@ -50,27 +50,18 @@ class OfArray(Request):
 
         file = caller.file(self.file)
         stated = read_array(file, also=caller.also, beside=caller.within(file).file)
-        how: Any = {
-            "speed": stated.speed,
-            "preload": stated.preload,
-            "accuracy": self.accuracy,
-            "time_limit": self.time_limit,
-        }
-
-        def tell(share: float) -> None:
-            caller.tell({"share": share})
-
+        how = self.values("accuracy", "time_limit")
+        how |= {"speed": stated.speed, "preload": stated.preload}
         scatter, load = stated.scatter, stated.hold
         array = stated.array if scatter is None else scatter.of(stated.array)
-        found = pull_array(array, **how, progress=tell)
+        found = pull_array(array, **how, progress=caller.share)
         held = None if load is None else holding(array, found, load, **how)
         wait = stated.hold_time
         left = None if wait is None else preload_after(array, wait, **how)
         part = None
         if scatter is not None and load is not None:
-            part = array_yield(
-                stated.array, scatter, load=load.force, draws=stated.draws, **how, progress=tell
-            )
+            how |= {"draws": stated.draws, "progress": caller.share}
+            part = array_yield(stated.array, scatter, load=load.force, **how)
         curve = [
             {"travel_m": -x, "force_N": F} for x, F in zip(found.drive, found.force, strict=True)
         ]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from viscotack.errors import InputError
 
 from .flags import INDENTERS
-from .options import File, Output, contact, csv_file, file_name, number, option, switch
+from .options import File, binary_file, contact, csv_file, file_name, number, option, switch
 from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
@@ -99,14 +99,10 @@ class DescribePlan(Request):
 class Settings(Request):
     """Options that replace the settings of a plan; `CaseSettings` checks their ranges."""
 
-    accuracy: float | None = number("Relative error of the pull-off force.", metavar="RELATIVE")
-    until: Literal["pull-off", "detached"] | None = option(
-        "End of each case.", metavar="pull-off|detached"
-    )
-    time_limit: float | None = number('Longest wall time of a case, "10 min".', "s", metavar="TIME")
-    memory_limit: float | None = number(
-        'Most memory of a case, "400 MB".', "byte", metavar="MEMORY"
-    )
+    accuracy: float | None = number("Relative error of the pull-off force.")
+    until: Literal["pull-off", "detached"] | None = option("End of each case.")
+    time_limit: float | None = number('Longest wall time of a case, "10 min".', "s")
+    memory_limit: float | None = number('Most memory of a case, "400 MB".', "byte")
 
 
 class Run(Settings):
@@ -128,12 +124,8 @@ class Run(Settings):
         f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True
     )
     out: Path = file_name("Folder of the campaign; created if missing.", metavar="DIR", default=...)
-    workers: int = option(
-        "Processes on this machine, one thread each.", metavar="N", default=1, ge=1
-    )
-    scheduler: str | None = option(
-        'A Dask scheduler with workers, "tcp://host:8786".', metavar="ADDRESS"
-    )
+    workers: int = option("Processes on this machine, one thread each.", default=1, ge=1)
+    scheduler: str | None = option('A Dask scheduler with workers, "tcp://host:8786".')
     shard: str | None = option(
         "Part of the plan, for a job array; campaign merge combines them.", metavar="K/N"
     )
@@ -177,7 +169,7 @@ class Run(Settings):
         """Return the plan or its shard; None for the plan in the folder."""
         from viscotack.campaign import read_plan, shard_of
 
-        changed = {name: getattr(self, name) for name in Settings.model_fields}
+        changed = self.values(*Settings.model_fields)
         if self.plan is None:
             given = [n for n, x in {**changed, "shard": self.shard}.items() if x is not None]
             if given:
@@ -246,8 +238,8 @@ class Export(Request):
     word: ClassVar = "campaign export"
     outputs: ClassVar = (
         csv_file(),
-        Output("parquet", "Write a Parquet file.", "binary", endings=(".parquet",)),
-        Output("mat", "Write a MATLAB file.", "binary", endings=(".mat",)),
+        binary_file("parquet", "Write a Parquet file.", ".parquet"),
+        binary_file("mat", "Write a MATLAB file.", ".mat"),
         csv_file("Write the failures.", "failures"),
     )
     local: ClassVar = _OF_FOLDERS

@@ -7,7 +7,7 @@ from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
-from .options import Output, contact, csv_file, number, option, picture
+from .options import Output, binary_file, contact, csv_file, number, option, picture
 from .parts.record_words import read, rows_of
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
@@ -35,11 +35,10 @@ class Control(Request):
         Output(
             "c", "Write force, pull-off force and controller as a header of C99.", endings=(".h",)
         ),
-        Output(
+        binary_file(
             "fmu",
             "Write an FMU for co-simulation, FMI 3.0, by the C compiler of this machine.",
-            "binary",
-            endings=(".fmu",),
+            ".fmu",
         ),
         csv_file("Write a row for each speed: pull-off force and travels."),
         csv_file("Write a row for each tick of the release.", "ticks"),
@@ -91,21 +90,14 @@ class Control(Request):
             problem,
             self.slowest,
             self.fastest,
-            tolerance=self.tolerance,
-            accuracy=self.accuracy,
-            time_limit=self.time_limit,
-            progress=lambda share: caller.tell({"share": part * share}),
+            progress=lambda share: caller.share(part * share),
+            **self.values("tolerance", "accuracy", "time_limit"),
         )
         release = released = None
         if self.wanted is not None:
-            release = Release(
-                table,
-                self.wanted,
-                self.stiffness or inf,
-                self.period,
-                self.drive_limit or inf,
-            )
-            released = let_go(problem, release, accuracy=self.accuracy, time_limit=self.time_limit)
+            limits = self.stiffness or inf, self.period, self.drive_limit or inf
+            release = Release(table, self.wanted, *limits)
+            released = let_go(problem, release, **self.values("accuracy", "time_limit"))
         speed = None if release is None else release.speed
         files = {
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
@@ -145,10 +137,9 @@ def _record(
     }
     if released is not None:
         found["release"] = {
-            "wanted_N": released.wanted,
+            **read(released, "wanted_N"),
             "contact_speed_m_per_s": speed,
-            "pull_off_force_N": released.pull_off_force,
-            "miss": released.miss,
+            **read(released, "pull_off_force_N", "miss"),
             "time_s": released.time[-1],
         }
     return found

@@ -59,11 +59,8 @@ class OfDesign(Request):
             stated.space,
             stated.targets,
             stated.conditions,
-            confirm=self.confirm,
-            seed=self.seed,
-            accuracy=self.accuracy,
-            time_limit=self.time_limit,
-            progress=lambda share: caller.tell({"share": share}),
+            progress=caller.share,
+            **self.values("confirm", "seed", "accuracy", "time_limit"),
         )
         rows = [_row(one) for one in found.candidates]
         front = [_front_row(one) for one in found.front]

@@ -55,12 +55,6 @@ class FitMaterial(Dma, Shifting):
     name: str | None = option("Name of the material; default: the file name.")
     source: str = option("Who measured it, for the passport.", default="")
 
-    def check(self) -> None:
-        """Check that options for sweeps are given for sweeps only."""
-        super().check()
-        if self.test in ("relaxation", "creep"):
-            self._refuse_of_sweeps(f"for a test of {self.test}")
-
     def answer(self, caller: Caller) -> Answer:
         """Read the files, build the master curve and fit the model."""
         from viscotack.model.materials.passport_file import write_passport
@@ -78,7 +72,7 @@ class FitMaterial(Dma, Shifting):
             words=lambda: words,
             files={"output": lambda target: write_passport(passport, target)},
             pictures={"plot": lambda: draw_fit(report, passport)},
-            drawn=lambda: _drawn(report, passport) | {"words": words},
+            drawn=lambda: _drawn(report, passport),
             notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
         )
 
@@ -90,17 +84,18 @@ class FitMaterial(Dma, Shifting):
         if not isinstance(measured, FrequencySweeps):
             first = measured[0] if isinstance(measured, tuple) else measured
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
-            self._refuse_of_sweeps(f"for the {found} test in the file")
+            given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
+            if given:
+                raise InputError(
+                    f"{quoted(given)} cannot be used for a test of {found}; leave it out",
+                    field=given[0],
+                )
         data, shift, cautions = self.at_one_temperature(measured, caller)
-        known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
+        known = self.values("glassy_modulus", "rubbery_modulus")
         report = fit(
             data,
-            poisson_ratio=self.poisson_ratio,
-            model=self.model,
-            arms=self.arms,
             known={name: value for name, value in known.items() if value is not None},
-            loss=self.loss,
-            level=self.level,
+            **self.values("poisson_ratio", "model", "arms", "loss", "level"),
         )
         report = allow_for_shifts(report, data, shift)
         return replace(report, cautions=(*cautions, *report.cautions)), shift
@@ -120,23 +115,11 @@ class FitMaterial(Dma, Shifting):
         names = ", ".join(file.name for file in self.files)
         return replace(passport, origin=replace(passport.origin, file=names))
 
-    def _refuse_of_sweeps(self, why: str) -> None:
-        given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
-        if given:
-            raise InputError(f"{quoted(given)} cannot be used {why}; leave it out")
-
 
 def _drawn(report: "FitReport", passport: "Passport") -> dict[str, Any]:
-    """Return the data of a fit for the page."""
+    """Return the material for the case of the page, and its passport."""
     from viscotack.model.materials.passport_file import passport_text
 
-    from .parts import drawn
     from .parts.library import material_table
 
-    return {
-        "notes": report.observed.source.notes,
-        "table": material_table(report.material),
-        "passport": passport_text(passport),
-        "fit": drawn.fit(report),
-        "shifts": drawn.shifts(passport.shift),
-    }
+    return {"table": material_table(report.material), "passport": passport_text(passport)}

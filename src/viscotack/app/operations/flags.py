@@ -1,26 +1,32 @@
 """A problem stated by flags: each is a key of a table of its file, dimensionless or in SI.
 
 `viscotack simulate sphere --tabor 3.24 --rate 316 ...` states [groups], `--radius "5 mm" --speed
-"10 um/s" ...` a problem in SI. The tables are read as those of a file.
+"10 um/s" ...` a problem in SI. The tables are read as those of a file, and what is wrong with a key
+is said of its flag.
 """
 
-from collections.abc import Mapping
+import os
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscotack.errors import InputError
 
 from .options import quoted
-from .request import Caller
-
-if TYPE_CHECKING:
-    from .statement import Statement
 
 # Words of what can be stated by flags.
 INDENTERS = ("sphere", "punch", "profile", "disc")
 ROUND = ("sphere", "profile", "disc")
 _BY_RADIUS = ("sphere", "disc")
 _STARTS = ("preload", "preload_force", "preload_radius", "apart")
+# What states the same as another.
+_INSTEAD = {
+    "strength": "equilibrium_gap",
+    "points": "profile_exponent",
+    "contact_modulus": "rubbery_modulus",
+}
 
 
 @dataclass(frozen=True)
@@ -142,8 +148,8 @@ FLAGS: Mapping[str, Flag] = {
         "out, and the test ends with the last move.",
         "groups.rate",
     ),
-    "material": Flag(_MATERIAL, "-", "-", metavar="MATERIAL"),
-    "law": Flag(LAW, "-", "-", metavar="LAW"),
+    "material": Flag(_MATERIAL, "material.model", "material.model", metavar="MATERIAL"),
+    "law": Flag(LAW, "interface.law", "interface.law", metavar="LAW"),
     "thickness": Flag(
         "Thickness of the layer over beta = (R^2 dg0/E0*)^(1/3), a half-space when left out; of "
         "the layer under a punch over a0.",
@@ -183,11 +189,12 @@ FLAGS: Mapping[str, Flag] = {
         si="interface.strength",
     ),
     "rubbery_modulus": Flag(
-        'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; not with a passport.',
+        'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; a passport is scaled to it.',
         si="material.rubbery_modulus",
     ),
     "contact_modulus": Flag(
-        'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".', si="-"
+        'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".',
+        si="material.contact_modulus",
     ),
     "poisson_ratio": Flag(
         "In SI: Poisson ratio of the solid, 0.5 when left out.", si="material.poisson_ratio"
@@ -202,196 +209,156 @@ def flags_of(indenters: tuple[str, ...]) -> dict[str, Flag]:
     return {n: x for n, x in FLAGS.items() if set(x.indenters) & set(indenters)}
 
 
-def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
-    """Return the problem that flags state: dimensionless, or in SI.
+def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[str, Any]]:
+    """Return the tables that flags state: dimensionless, or in SI.
 
     Parameters
     ----------
     word : str
         The indenter.
-    given : mapping
+    said : mapping
         Flags -> values.
-    caller : Caller
-        Resolves names of files.
-
-    Raises
-    ------
-    InputError
-        If a flag is missing, excluded by another one, or invalid.
+    nouns : Nouns
+        Known laws and materials.
     """
-    from viscotack.model.problem.case_file import passport_of, problem_of
-    from viscotack.model.problem.nouns import known
-    from viscotack.model.problem.tables import Reading
-
-    from .statement import Statement
-
-    said = dict(given)
-    known_flags = flags_of((word,))
-    if unknown := [name for name in said if name not in known_flags]:
-        raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
-    for name, value in said.items():
-        several = value if known_flags[name].many and isinstance(value, list | tuple) else [value]
-        if any(isinstance(x, bool) or not isinstance(x, str | int | float) for x in several):
-            raise InputError(f"{name} must be text or a number, got {value!r:.60}", field=name)
-    for name in {"material", "law", "points"} & said.keys():
-        said[name] = str(said[name])
-    if "set" in said:
-        raise InputError("set replaces a number of a file; give the option itself", field="set")
-    only_si = [n for n in said if not known_flags[n].pure and n != "temperature"]
-    in_si = bool(only_si)
-    if in_si and (pure := [name for name in said if not known_flags[name].si]):
-        raise InputError(
-            f"{quoted(pure[:1])} is dimensionless and {quoted(only_si[:1])} in SI; state the whole "
-            "problem in one of the two",
-            field=pure[0],
-        )
-    nouns = known(caller.also)
-    _refuse_missing(word, said, in_si, nouns)
-    tables, flag_at = _tables(word, said, in_si, nouns)
-    reading = Reading("the flags", nouns, caller.file)
-    try:
-        problem = problem_of(tables, reading)
-    except InputError as error:
-        if (name := flag_at.get(error.field)) is None:
-            raise
-        rest = str(error).partition(error.field.partition(".")[2])[2]
-        # what most mean by a preload
-        more = "; a force is `preload_force`" if name == "preload" else ""
-        raise InputError(f"{name}{rest}{more}", field=name) from None
-    passport, deviation = passport_of(tables, reading)
-    return Statement(problem, deviation, passport)  # type: ignore[arg-type]
-
-
-def _tables(
-    word: str, said: Mapping[str, Any], in_si: bool, nouns: Any
-) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
-    """Return the tables that flags state, and the flag of each key."""
     from viscotack.model.problem.law_table import table_of_words
 
-    test = "protocol" if in_si else "groups"
-    shape: dict[str, Any] = {"radius": 1.0} if word == "disc" and not in_si else {}
-    tables: dict[str, dict[str, Any]] = {"material": {}, "interface": {}, word: shape, test: {}}
-    flag_at = {}
+    known, in_si = flags_of((word,)), is_in_si(said)
+    if unknown := [n for n in said if n not in known or not (known[n].pure or known[n].si)]:
+        raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
+    if in_si and (pure := [name for name in said if not known[name].si]):
+        raise InputError(
+            f"{quoted(pure[:1])} is dimensionless, and others are in SI; state the whole problem "
+            "in one of the two",
+            field=pure[0],
+        )
+    tables: dict[str, dict[str, Any]] = {"material": {}, "interface": {}, word: {}}
+    tables["protocol" if in_si else "groups"] = {}
     for name, value in said.items():
-        place = FLAGS[name].si if in_si else FLAGS[name].pure
-        table, _, key = place.replace("shape.", f"{word}.").partition(".")
-        if not key:
-            continue
-        if word == "punch" and key == "preload_force" and in_si:
-            key = "preload_stress"
-        value = f"apart {value}" if key == "start" else value
-        tables.setdefault(table, {})[key] = value
-        flag_at[f"{table}.{key}"] = name
+        table, _, key = _place(name, word, in_si=in_si).partition(".")
+        value = os.fspath(value) if isinstance(value, os.PathLike) else value
+        tables.setdefault(table, {})[key] = f"apart {value}" if key == "start" else value
+    if word == "disc" and not in_si:
+        tables[word]["radius"] = 1.0
+    if word == "punch":
+        tables.setdefault("layer", {})
     if "layer" in tables:
         tables["layer"]["base"] = "bonded" if "bonded" in said else "frictionless"
-    tables["interface"] |= table_of_words(said.get("law", "lennard-jones"), nouns.laws)
-    tables["material"] |= material_table(
-        said.get("material", _usual(word)), said, in_si=in_si, nouns=nouns
-    )
-    if tables["material"].get("model") == "elastic" and not in_si and "move" not in said:
+    tables["interface"] |= table_of_words(_text(said, "law", "lennard-jones"), nouns.laws)
+    solid = _text(said, "material", "sls" if word == "punch" else "power-law")
+    tables["material"] = table_of_solid(solid, tables["material"], nouns, in_si=in_si)
+    if solid == "elastic" and not in_si and "move" not in said:
         # an elastic solid has no time: the unit is that in which the drive travels h0
         tables["groups"].setdefault("rate", 1.0)
-    return tables, flag_at
+    _refuse_missing(word, said, tables, nouns, in_si=in_si)
+    return tables
 
 
-def _usual(word: str) -> str:
-    return "sls" if word == "punch" else "power-law"
+def _refuse_missing(
+    word: str, said: Mapping[str, Any], tables: Mapping[str, Any], nouns: Any, *, in_si: bool
+) -> None:
+    """Name all flags that are missing at once; the reader names those of one table."""
+    from viscotack.cards import cards
+
+    kinds = {word: nouns.shapes[word], "interface": nouns.laws[tables["interface"]["law"]]}
+    kinds["material"] = nouns.materials.get(tables["material"].get("model"))
+    fields = [(x, n, f) for x, kind in kinds.items() if kind for n, f in cards(kind).items()]
+    needed = [f"{table}.{name}" for table, name, field in fields if field.needed]
+    needed += ["layer.thickness"] if "layer" in tables else []
+    needed += ["groups.cohesion" if word == "punch" else "groups.tabor"] * (not in_si)
+    needed += [] if "move" in said else ["protocol.speed" if in_si else "groups.rate"]
+    flags, given = _flags_by_place(word, in_si=in_si), {*said, *map(_INSTEAD.get, said)}
+    missing = [
+        flags[place]
+        for place in needed
+        if flags.get(place, word) not in (word, *given)
+        and place.partition(".")[2] not in tables[place.partition(".")[0]]
+    ]
+    starts = [name for name in _STARTS if name in said]
+    of = f"exactly one of {quoted(n for n in _STARTS if n in flags_of((word,)))}"
+    if missing:
+        more = "" if starts else f"; also give {of}"
+        verb = "are" if missing[1:] else "is"
+        raise InputError(f"{quoted(missing)} {verb} missing{more}", field=missing[0])
+    if len(starts) != 1:
+        raise InputError(f"give {of}, got {quoted(starts) or 'none'}")
 
 
-def material_table(
-    words: str, said: Mapping[str, Any], *, in_si: bool = False, nouns: Any
+def is_in_si(said: Mapping[str, Any]) -> bool:
+    """Return whether one of some flags states a problem in SI, as it has no other meaning."""
+    return any(n in FLAGS and FLAGS[n].si and not FLAGS[n].pure for n in {*said} - {"temperature"})
+
+
+def table_of_solid(
+    words: str, said: Mapping[str, Any], nouns: Any, *, in_si: bool = False
 ) -> dict[str, Any]:
-    """Return the table [material] of the words of an option and the flags beside them."""
+    """Return the table [material] of the words of an option and the numbers beside them."""
     from viscotack.cards import cards
     from viscotack.model.materials.library import MATERIALS
-    from viscotack.model.problem.tables import OWN
     from viscotack.units import parse
 
-    numbers = ("modulus_ratio", "exponent", "rubbery_modulus", "poisson_ratio", "tau0")
-    others = (*numbers, "contact_modulus")
+    numbers = {name: value for name, value in said.items() if name != "model"}
     if words.endswith(".toml") or words in MATERIALS:
-        if beside := [name for name in others if name in said]:
+        if beside := [n for n in numbers if n not in ("rubbery_modulus", "temperature")]:
             raise InputError(
-                f"{words} defines the whole material; leave out {quoted(beside)}",
-                field=beside[0],
+                f"{words} defines the whole material; leave out {quoted(beside)}", field=beside[0]
             )
-        return {"passport": words}
-    if "contact_modulus" in said:
-        nu = parse(said.get("poisson_ratio", 0.5), "1")
-        modulus = parse(said["contact_modulus"], "Pa") * (1 - nu**2)
-        said = {**said, "rubbery_modulus": f"{modulus!r} Pa"}
+        return {"passport": words, **numbers}
+    if in_si:
+        numbers = {"poisson_ratio": 0.5} | numbers
+    if "contact_modulus" in numbers:
+        nu = parse(numbers["poisson_ratio"], "1")
+        modulus = parse(numbers.pop("contact_modulus"), "Pa") * (1 - nu**2)
+        numbers["rubbery_modulus"] = f"{modulus!r} Pa"
     word, _, rest = words.partition(":")
-    kind = nouns.materials.get(word)
-    if kind is None or (word == "prony") != bool(rest) and word in ("prony", "power-law", "sls"):
-        raise InputError(
-            "material must be a passport FILE.toml, a published material, power-law, sls, elastic, "
-            f"fractional-zener:ORDER or prony:FILE, got {words!r:.60}{OWN}",
-            field="material",
-        )
-    table: dict[str, Any] = {"model": word}
     if word == "prony":
-        table["file"], rest = rest, ""
+        return {"model": word, "file": rest, **numbers}
     by_flags = {"rubbery_modulus", "glassy_modulus", "poisson_ratio", "tau0"}
     by_flags |= {"exponent"} if word == "power-law" else set()
-    own = [name for name in cards(kind) if name not in by_flags]
-    values = [text for text in rest.split(",") if text]
-    needed = [name for name in own if cards(kind)[name].needed]
-    if not len(needed) <= len(values) <= len(own):
-        wanted = ",".join(name.upper() for name in own)
-        raise InputError(
-            f"write {word}{':' if wanted else ''}{wanted}, got {words!r:.60}", field="material"
-        )
-    table |= dict(zip(own, values, strict=False))
-    for name in numbers:
-        of = "glassy_modulus" if name == "modulus_ratio" else name
-        if name in said and of not in cards(kind):
-            raise InputError(f"a solid {word} has no {name}; leave it out", field=name)
-        if name in said:
-            table[name] = said[name]
-    return ({"poisson_ratio": 0.5} if in_si else {}) | table
-
-
-def needs_of(words: str, nouns: Any, *, in_si: bool = False) -> list[str]:
-    """Return the numbers that a material stated by words needs."""
-    from viscotack.cards import cards
-
-    word = words.partition(":")[0]
     kind = nouns.materials.get(word)
-    if kind is None or word == "prony":
-        return []
-    asked = {"modulus_ratio": "glassy_modulus", "exponent": "exponent"}
-    found = [name for name, of in asked.items() if of in cards(kind)]
-    return found + (["tau0"] if in_si and "tau0" in cards(kind) else [])
+    own = [name for name in (() if kind is None else cards(kind)) if name not in by_flags]
+    values = [text for text in rest.split(",") if text]
+    if len(values) > len(own):
+        raise InputError(f"{word} takes {len(own)} numbers, got {words!r:.60}", field="material")
+    return {"model": word, **dict(zip(own, values, strict=False)), **numbers}
 
 
-def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any) -> None:
-    """Raise InputError that lists all missing flags."""
-    solid, punch = said.get("material", _usual(word)), word == "punch"
-    of_solid = needs_of(solid, nouns, in_si=in_si)
-    # of some, one is enough
-    needed: list[tuple[str, ...]] = [(name,) for name in of_solid]
-    if in_si:
-        needed = [("half_width" if punch else "radius",), ("work_of_adhesion",), *needed]
-        if solid.partition(":")[0] in nouns.materials:
-            needed.append(("rubbery_modulus", "contact_modulus"))
-        needed += [("equilibrium_gap", "strength"), ("speed", "move")]
-    else:
-        needed = [("size",), ("cohesion",), *needed] if punch else [("tabor",), *needed]
-        needed += [("profile_exponent", "points")] * (word == "profile")
-        needed += [] if solid == "elastic" else [("rate", "move")]
-    needed += [("thickness",)] * punch
-    if "bonded" in said and "thickness" not in said:
-        raise InputError("bonded needs a layer; give its thickness as well", field="bonded")
-    if "points" in said and "profile_exponent" in said:
-        raise InputError("give either profile_exponent or points, not both", field="points")
-    starts = [name for name in _STARTS if name in said]
-    of = [name for name in _STARTS if word in FLAGS[name].indenters]
-    one_of = f"exactly one of {quoted(of)}"
-    if missing := [names[0] for names in needed if not said.keys() & set(names)]:
-        more = "" if starts else f"; also give {one_of}"
-        why = "" if "material" in said or in_si else f" for the material {solid}, the usual one"
-        why = why if set(missing) & set(of_solid) else ""
-        verb = "are" if missing[1:] else "is"
-        raise InputError(f"{quoted(missing)} {verb} missing{why}{more}")
-    if len(starts) != 1:
-        raise InputError(f"give {one_of}, got {quoted(starts) or 'none'}")
+@contextmanager
+def named_as_flags(word: str, *, in_si: bool) -> Iterator[None]:
+    """Say errors of the tables that flags state of the flags."""
+    try:
+        yield
+    except InputError as error:
+        flags = _flags_by_place(word, in_si=in_si)
+        name = flags.get(error.field, error.field)
+        table = error.field.partition(".")[0]
+        words = re.sub(r"^the options(, \[[\w-]+\])?:? |; write for example.*", "", str(error))
+        for place, flag in flags.items():
+            of, _, key = place.partition(".")
+            if key and of == table:
+                words = re.sub(rf"(?<![\w`.]){key}(?![\w`.=])", f"`{flag}`", words)
+        if "unknown key" in words:
+            words = f"this solid has no `{name}`; leave it out"
+        # what most mean by a preload
+        words += "; a force is `preload_force`" if name == "preload" else ""
+        raise InputError(words, field=name) from None
+
+
+def _flags_by_place(word: str, *, in_si: bool) -> dict[str, str]:
+    """Return the flags of an indenter by the keys that they state."""
+    found = {_place(name, word, in_si=in_si): name for name in flags_of((word,))}
+    return found | {"material.glassy_modulus": "modulus_ratio", "": ""}
+
+
+def _place(name: str, word: str, *, in_si: bool) -> str:
+    """Return table and key of a flag of an indenter."""
+    if word == "punch" and in_si and name == "preload_force":
+        return "protocol.preload_stress"
+    return (FLAGS[name].si if in_si else FLAGS[name].pure).replace("shape.", f"{word}.")
+
+
+def _text(said: Mapping[str, Any], name: str, usual: str) -> str:
+    value = said.get(name, usual)
+    if not isinstance(value, str | os.PathLike):
+        raise InputError(f"{name} must be text, got {value!r:.60}", field=name)
+    return os.fspath(value)

@@ -65,6 +65,7 @@ class Wish(Request):
         "Dwell time under the preload; default: full relaxation. Needs --approach-speed.", "s"
     )
     approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s")
+    time_limit: HowLong = None
 
     def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""
@@ -84,14 +85,8 @@ class Wish(Request):
                         field=name,
                     )
             return forecast_edge(fit, speed, preload=self.preload)
-        return forecast_rates(
-            fit,
-            speed,
-            preload=self.preload,
-            temperature=self.temperature,
-            dwell=self.dwell,
-            approach_speed=self.approach_speed,
-        )
+        conditions = self.values("preload", "temperature", "dwell", "approach_speed")
+        return forecast_rates(fit, speed, **conditions)
 
 
 class Forecast(Wish):
@@ -110,8 +105,6 @@ class Forecast(Wish):
         csv_file("Write a row for each speed."),
         picture(),
     )
-
-    time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the series of the study and forecast from it."""
@@ -140,8 +133,6 @@ class Report(Wish):
 
     word: ClassVar = "report"
     outputs: ClassVar = (main_file("The page, FILE.html.", ".html", ".htm", needed=True),)
-
-    time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
         """Fit, forecast and render the page."""

@@ -56,17 +56,15 @@ class IdentifySlow(Rig):
     )
     material: Any = named(
         "Passport or published name of the solid, to check that the test was slow; default: "
-        "not checked.",
-        metavar="PASSPORT",
+        "not checked."
     )
     level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the elastic models to one cycle."""
-        from viscotack.identify import fitted_force, identify_slow, slow_test
+        from viscotack.identify import identify_slow, slow_test
         from viscotack.plot.interface import draw_slow_test
 
-        from .parts.json_data import drawn
         from .parts.records import slow_record
 
         found = self.survey(caller)
@@ -87,10 +85,6 @@ class IdentifySlow(Rig):
             data=lambda: slow_record(fit),
             words=lambda: _slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
-            drawn=lambda: {
-                "measured": {"at": drawn(test.at), "force": drawn(test.force)},
-                "fitted": {"at": drawn(test.at), "force": drawn(fitted_force(fit.best, test))},
-            },
             notes=refusals(found),
         )
 
@@ -119,8 +113,7 @@ class Series(Rig):
     def given(self) -> dict[str, Any]:
         """Keywords of :func:`viscotack.identify.rate_series.series_of` for any model."""
         names = ("radius", "preload", "scatter", "level", "compliance", "compliance_uncertainty")
-        known = {name: getattr(self, name) for name in names}
-        return known | {"work_of_adhesion": self.known("work_of_adhesion")}
+        return self.values(*names) | {"work_of_adhesion": self.known("work_of_adhesion")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,11 +156,7 @@ class IdentifyRates(Series, OnLayer):
 
     word: ClassVar = "identify rates"
     outputs: ClassVar = (
-        main_file(
-            "Write the study, for `viscotack forecast` and `viscotack report`.",
-            ".toml",
-            metavar="STUDY",
-        ),
+        main_file("Write the study, for `viscotack forecast` and `viscotack report`.", ".toml"),
         picture(),
         picture("Draw the posterior of the interface.", "corner"),
     )
@@ -220,14 +209,8 @@ class IdentifyRates(Series, OnLayer):
             solid = solid.moved_to(self.temperature)
         found = self.survey(caller)
         names = ("temperature", "temperature_uncertainty", "curves", "growth", "history")
-        series = series_of(
-            found,
-            solid,
-            body=self.body,
-            bounded=True,
-            **self.given,
-            **{name: getattr(self, name) for name in names},
-        )
+        how = self.given | self.values(*names)
+        series = series_of(found, solid, body=self.body, bounded=True, **how)
         computed = Computed() if kept is None else Computed.read(kept)
         fit = identify_rates(series, computed=computed)
         if kept is not None:
@@ -259,7 +242,7 @@ class IdentifyEdge(Series):
 
     word: ClassVar = "identify edge"
     outputs: ClassVar = (
-        main_file("Write the study, for `viscotack forecast`.", ".toml", metavar="STUDY"),
+        main_file("Write the study, for `viscotack forecast`.", ".toml"),
         picture(),
         picture("Draw the posterior of the law.", "corner"),
     )

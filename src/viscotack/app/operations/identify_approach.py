@@ -4,6 +4,7 @@ from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
+from .identify import Level, Radius
 from .options import named, number
 from .parts.record_words import read
 from .parts.rig import Rig, refusals
@@ -26,19 +27,18 @@ class IdentifyApproach(Rig):
 
     word: ClassVar = "identify approach"
 
-    radius: float = number('Sphere radius, "7.5 um".', "m", example='"7.5 um"', default=...)
+    radius: Radius
     contact_modulus: float | None = number(
         'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.', "Pa"
     )
     material: Any = named(
         "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
-        "once is the other limit.",
-        metavar="PASSPORT",
+        "once is the other limit."
     )
     work_of_adhesion: float | None = number(
         'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"
     )
-    level: float = number("Confidence level of interval and bound.", default=0.9)
+    level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
         """Bound the range by every approach."""
@@ -56,11 +56,9 @@ class IdentifyApproach(Rig):
         survey = self.survey(caller)
         fits, refused = identify_approaches(
             survey.cycles,
-            radius=self.radius,
             contact_modulus=modulus,
             instantaneous=instantaneous,
-            work_of_adhesion=self.work_of_adhesion,
-            level=self.level,
+            **self.values("radius", "work_of_adhesion", "level"),
         )
         if not fits:
             raise InputError("; ".join(dict.fromkeys(refused)), field="files")

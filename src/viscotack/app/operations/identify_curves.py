@@ -51,9 +51,8 @@ class IdentifyCurves(Rig):
         survey = self.survey(caller)
         fits, refused = fit_curves(
             survey.cycles,
-            self.radius,
-            model=self.model,
             contact_modulus=self.known("contact_modulus"),
+            **self.values("radius", "model"),
         )
         if not fits:
             raise InputError("; ".join(refused), field="files")

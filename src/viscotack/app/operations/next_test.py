@@ -1,29 +1,16 @@
 """The operation ``next-test``: which test narrows a forecast or the interface most."""
 
 from itertools import product
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
 from .forecast import StudyFile, fitted, speeds_of
-from .options import Number, csv_file, number, option, picture, text
+from .options import csv_file, number, option, picture, text
 from .parts.record_words import read
 from .parts.rig import refusals
 from .request import Answer, Caller, Request
 from .simulate import HowLong
-
-Loads = Annotated[
-    tuple[float, ...],
-    Number("Preload of a test; can be repeated. Default: that of the series.", unit="N", above=0),
-]
-Radii = Annotated[
-    tuple[float, ...],
-    Number(
-        "Radius of the sphere of a test; can be repeated. Default: that of the series.",
-        unit="m",
-        above=0,
-    ),
-]
 
 
 class NextTest(Request):
@@ -51,8 +38,18 @@ class NextTest(Request):
         to=speeds_of,
         default=...,
     )
-    preload: Loads = ()
-    radius: Radii = ()
+    preload: tuple[float, ...] = number(
+        "Preload of a test; can be repeated. Default: that of the series.",
+        "N",
+        above=0,
+        default=(),
+    )
+    radius: tuple[float, ...] = number(
+        "Sphere radius of a test; can be repeated. Default: that of the series.",
+        "m",
+        above=0,
+        default=(),
+    )
     dwell: tuple[float, ...] = number(
         "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
         "--approach-speed.",
@@ -87,7 +84,7 @@ class NextTest(Request):
         from .parts.tables import rows_as_csv
 
         candidates = [
-            Trial(v, load, radius, dwell, None if dwell is None else self.approach_speed)
+            Trial(v, load, radius, dwell, self.approach_speed)
             for v, load, radius, dwell in product(
                 [v for some in self.speed for v in some],
                 self.preload or (None,),
@@ -95,8 +92,6 @@ class NextTest(Request):
                 self.dwell or (None,),
             )
         ]
-        if self.approach_speed is not None and not self.dwell:
-            raise InputError("`approach_speed` needs dwell")
         wanted = [
             Trial(v, self.forecast_preload, self.forecast_radius)
             for some in self.forecast_speed
@@ -110,33 +105,21 @@ class NextTest(Request):
                 study.fit,
                 candidates,
                 wanted=wanted or INTERFACE,
-                noise=self.noise,
-                repeats=self.repeats,
-                count=self.count,
+                **self.values("noise", "repeats", "count"),
             )
         rows = [_row(each) for each in found.ranked]
-        what = "the forecast" if wanted else "ln(work) and ln(range)"
+        record = {
+            "now": found.now,
+            "noise": found.noise,
+            "tests": rows,
+            "sequence": [_row(each) for each in found.sequence],
+            "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
+            "words": [*study.fit.words, *found.words],
+        }
         return Answer(
             found,
-            data=lambda: {
-                "now": found.now,
-                "noise": found.noise,
-                "tests": rows,
-                "sequence": [_row(each) for each in found.sequence],
-                "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
-                "words": [*study.fit.words, *found.words],
-            },
-            words=lambda: {
-                "words": [
-                    *([study.fit.misfit] if study.fit.misfit else []),
-                    f"standard deviation of {what}: {found.now:.2%} now; noise of a test "
-                    f"{found.noise:.2%}",
-                ],
-                "best_tests": rows[:_SHOWN],
-                "best_sequence": [_row(each) for each in found.sequence],
-                "not_ranked": list(dict.fromkeys(why for _, why in found.refused)),
-                "notes": found.words,
-            },
+            data=lambda: record,
+            words=lambda: record | {"tests": rows[:_SHOWN]},
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),
@@ -145,6 +128,8 @@ class NextTest(Request):
 
 # What a trial is, as columns.
 _TRIAL = ("speed_m_per_s", "preload_N", "radius_m", "dwell_s", "approach_speed_m_per_s")
+
+
 _SHOWN = 8  # tests in the text
 
 

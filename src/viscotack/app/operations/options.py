@@ -15,6 +15,8 @@ from viscotack.cards import Quantity, plausible
 from viscotack.errors import InputError
 from viscotack.units import is_number, parse
 
+_OBJECT = {"type": "object"}
+
 
 @dataclass(frozen=True)
 class Option:
@@ -152,6 +154,7 @@ class Named(_Read):
     """A passport: an object, the name of a published one, a file, or the text of [material]."""
 
     form: ClassVar = "named"
+    metavar: str = field(default="PASSPORT", kw_only=True)
 
     def read(self, value: Any) -> Any:
         """Return the object, or its name."""
@@ -177,19 +180,7 @@ class Rows(_Read):
     """
 
     form: ClassVar = "rows"
-    schema: ClassVar = {
-        "anyOf": [
-            {"type": "string", "maxLength": 200},
-            {
-                "type": "array",
-                "items": {
-                    "type": "object",
-                    "additionalProperties": {"type": ["number", "string"], "maxLength": 200},
-                },
-                "minItems": 1,
-            },
-        ]
-    }
+    schema: ClassVar = {"anyOf": [{"type": "string"}, {"type": "array", "items": _OBJECT}]}
 
     elsewhere: bool = field(default=False, kw_only=True)
 
@@ -213,33 +204,23 @@ class Contact(_Read):
     spelling : str
         On the command line the indenter is an argument ("word") or follows from the flags
         ("flags"), or only a case file is accepted ("case").
-    whole : bool
-        Whether a case file with any indenter is accepted.
     in_si : bool
         Whether flags state it in SI alone.
     rough : bool
         Whether a file of ``viscotack rough`` is accepted, which states a map of heights.
-    table, expected : str
-        Option that receives the name of a table given in place of the problem, and what else may
-        stand there.
+    table : str
+        Option that receives the name of a table given in place of the problem.
     """
 
     form: ClassVar = "problem"
-    schema: ClassVar = {
-        "anyOf": [
-            {"type": "object", "description": "Tables of a case, or the flags of an indenter."},
-            {"type": "string", "maxLength": 200, "description": "Name of a case file."},
-        ]
-    }
+    schema: ClassVar = {"anyOf": [_OBJECT, {"type": "string"}]}
 
     argument: bool = field(default=True, kw_only=True)
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
     spelling: Literal["flags", "word", "case"] = field(default="flags", kw_only=True)
-    whole: bool = field(default=True, kw_only=True)
     in_si: bool = field(default=False, kw_only=True)
     rough: bool = field(default=False, kw_only=True)
     table: str = field(default="", kw_only=True)
-    expected: str = field(default="", kw_only=True)
 
     def read(self, value: Any) -> Any:
         """Return the problem as it was given; the answer reads it."""
@@ -285,8 +266,6 @@ class Output:
         "text", "picture" or "binary".
     flags : tuple of str
         Command-line options, if not ``--name``.
-    metavar, done : str
-        Placeholder in the help text, and message after writing.
     needed : bool
         Whether the output is required.
     usual : str
@@ -299,8 +278,6 @@ class Output:
     words: str
     kind: Literal["text", "picture", "binary"] = "text"
     flags: tuple[str, ...] = ()
-    metavar: str = "FILE"
-    done: str = "wrote"
     needed: bool = False
     usual: str = ""
     endings: tuple[str, ...] = ()
@@ -322,10 +299,15 @@ def main_file(words: str, *endings: str, **more: Any) -> Output:
     return Output("output", words, flags=("-o", "--output"), endings=endings, **more)
 
 
+def binary_file(name: str, words: str, ending: str, *flags: str) -> Output:
+    """Declare a binary file as output."""
+    return Output(name, words, "binary", flags, endings=(ending,))
+
+
 def picture(words: str = "Draw.", name: str = "plot") -> Output:
     """Declare a figure as output."""
     words = f"{words.removesuffix('.')} to a .png, .pdf or .svg file."
-    return Output(name, words, "picture", done="drew")
+    return Output(name, words, "picture")
 
 
 def option_of(info: FieldInfo) -> Option:

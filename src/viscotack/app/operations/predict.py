@@ -9,7 +9,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 
-from .options import Output, contact, csv_file, number, picture, quoted, rows, switch
+from .options import binary_file, contact, csv_file, number, picture, quoted, rows, switch
 from .parts.record_words import units_of
 from .request import Answer, Caller, Request
 from .simulate import HowLong
@@ -53,12 +53,7 @@ class Predict(Request):
         csv_file("Write the predicted unloading curve as a table.", "curve"),
         picture("Draw that curve."),
         csv_file("Write the rows of the table of cases with their predictions."),
-        Output(
-            "xlsx",
-            "Write the rows of the table of cases with their predictions to a workbook FILE.xlsx.",
-            "binary",
-            endings=(".xlsx",),
-        ),
+        binary_file("xlsx", "Write these rows to a workbook FILE.xlsx.", ".xlsx"),
     )
     takes_own: ClassVar = True
 
@@ -72,7 +67,6 @@ class Predict(Request):
         indenters=("sphere", "punch"),
         spelling="word",
         table="cases",
-        expected="predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv",
     )
     cases: Path | tuple[Mapping[str, Any], ...] | None = rows(
         "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "

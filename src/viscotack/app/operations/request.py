@@ -19,7 +19,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from viscotack.errors import TOO_LARGE, InputError
+from viscotack.errors import TOO_LARGE, InputError, wrong_value
 
 from .options import Contact, Output, choices_of, is_many, option_of, quoted
 
@@ -131,6 +131,10 @@ class Caller:
     sent: bool = False
     read: list[Path] = field(default_factory=list)
 
+    def share(self, share: float) -> None:
+        """Tell the completed share."""
+        self.tell({"share": share})
+
     def file(self, name: str | os.PathLike[str]) -> Path:
         """Return the path of a named file, which no output may overwrite."""
         text = os.fspath(name)
@@ -198,6 +202,10 @@ class Request(BaseModel):
         option = option_of(type(self).model_fields["problem"])
         assert isinstance(option, Contact), "declared as a problem"
         return statement(getattr(self, "problem", None), option, caller)
+
+    def values(self, *names: str) -> dict[str, Any]:
+        """Return options by name, as keywords of what computes the answer."""
+        return {name: getattr(self, name) for name in names}
 
     def known(self, name: str) -> tuple[float, float] | None:
         """Return a known number and its standard uncertainty, of two options; None without."""
@@ -268,27 +276,11 @@ def refusal(kind: type[Request], errors: Any) -> InputError:
         return InputError(f"{kind.word} has no option {name!r:.60}; {meant}")
     if not known:
         return own if isinstance(own, InputError) else InputError(str(own or first["msg"]))
-    got = f", got {first['input']!r:.60}"
-    words = str(own) if own else f"must be {_WANTED.get(first['type'], _said(first['msg']))}{got}"
-    words = words.strip()
+    words = wrong_value(first)
     joint = " " if words.startswith(("must ", "needs ", "lies ")) else ": "
     example = option_of(kind.model_fields[known[0]]).example
     more = f"; for example {example}" if example else ""
     return InputError(f"{known[0]}{joint}{words}{more}", field=known[0])
-
-
-_WANTED = {
-    "string_type": "text",
-    "bool_parsing": "true or false",
-    "bool_type": "true or false",
-    "int_parsing": "a whole number",
-    "int_from_float": "a whole number",
-    "path_type": "the name of a file",
-}
-
-
-def _said(message: str) -> str:
-    return message.removeprefix("Input should be ").removeprefix("a valid ")
 
 
 def answered(asked: Request, caller: Caller) -> Answer:

@@ -1,14 +1,17 @@
 """The operation ``test read``: evaluate the files of a tack tester or microscope."""
 
+from pathlib import Path
 from typing import Any, ClassVar
 
 from viscotack.errors import InputError
 
-from .options import Output, csv_file, number, picture
+from .options import binary_file, csv_file, number, picture
+from .parts.json_data import drawn
 from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
 from .request import Answer, Caller
 
+_MOST = 1500  # points of a curve on the page
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
 _LARGEST_WORK = 10.0
 
@@ -35,12 +38,11 @@ class ReadTests(Rig, ShiftLaw):
             "- is standard output.",
             "curves",
         ),
-        Output(
+        binary_file(
             "xlsx",
             "Write a workbook FILE.xlsx of cycles, repeats by speed and rejected files, with units "
             "in the headings.",
-            "binary",
-            endings=(".xlsx",),
+            ".xlsx",
         ),
         picture(),
     )
@@ -65,7 +67,6 @@ class ReadTests(Rig, ShiftLaw):
         from viscotack.lab.tack.repeats import speed_table
         from viscotack.plot.tack import draw_tests
 
-        from .parts.drawn import retraction
         from .parts.records import (
             curve_rows,
             cycle_row,
@@ -101,11 +102,25 @@ class ReadTests(Rig, ShiftLaw):
             },
             pictures={"plot": lambda: draw_tests(found.cycles, shift=law)},
             drawn=lambda: {
-                "curves": [retraction(cycle) for cycle in found.cycles],
+                "curves": [_retraction(cycle) for cycle in found.cycles],
                 "refused": refused,
             },
             notes=(*refusals(found), *_named_temperatures(found)),
         )
+
+
+def _retraction(cycle: Any) -> dict[str, Any]:
+    """Return the numbers of a cycle, and its retraction as it is drawn."""
+    from .parts.records import cycle_row
+
+    back = cycle.retraction
+    every = max((back.stop - back.start) // _MOST, 1)
+    return {
+        **cycle_row(cycle),
+        "file": Path(cycle.source.path).name,
+        "depth": drawn(cycle.depth[back][::every]),
+        "force": drawn(cycle.force[back][::every]),
+    }
 
 
 # Of a cycle in the text; all numbers are in the tables.

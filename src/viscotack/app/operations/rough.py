@@ -7,7 +7,8 @@ from typing import Any, ClassVar, Literal
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .options import Output, csv_file, file_name, option, picture, switch
+from .options import binary_file, csv_file, file_name, option, picture, switch
+from .parts.tables import rows_as_csv
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
@@ -30,18 +31,13 @@ class OfRough(Request):
     word: ClassVar = "rough"
     outputs: ClassVar = (
         csv_file("Write force, contact area and energies by time."),
-        Output(
-            "maps", "Write maps of gap and pressure to a .npz file.", "binary", endings=(".npz",)
-        ),
+        binary_file("maps", "Write maps of gap and pressure to a .npz file.", ".npz"),
         picture("Draw the force curve and the contact."),
-        Output(
-            "film", "Write the detachment as a film to a .gif file.", "binary", endings=(".gif",)
-        ),
-        Output(
+        binary_file("film", "Write the detachment as a film to a .gif file.", ".gif"),
+        binary_file(
             "movie",
             "Write the detachment as a film to an .mp4 file, by the program ffmpeg.",
-            "binary",
-            endings=(".mp4",),
+            ".mp4",
         ),
     )
     takes_own: ClassVar = True
@@ -76,30 +72,28 @@ class OfRough(Request):
     )
 
     def answer(self, caller: Caller) -> Answer:
-        """Simulate the test, telling ``share``."""
-        if self.theory is not None:
-            return self._superposed(caller)
+        """Simulate the test, or pull each asperity off by itself, telling ``share``."""
+        from viscotack.simulate.rough import read_rough
+
+        file = caller.file(self.file)
+        problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
+        answer = self._superposed if self.theory is not None else self._simulated
+        return answer(problem, caller)
+
+    def _simulated(self, problem: Any, caller: Caller) -> Answer:
         from viscotack.plot.rough import check_ffmpeg, draw_rough, film_of_pull
         from viscotack.result import Outcome
-        from viscotack.simulate.rough import pull, read_rough, stickiness
-
-        from .parts.tables import rows_as_csv
+        from viscotack.simulate.rough import pull, stickiness
 
         if "movie" in caller.wants:
             check_ffmpeg()
-        file = caller.file(self.file)
-        problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
-        moments = self.moments or (_FRAMES if caller.wants & {"film", "movie"} else 0)
         found = pull(
             problem,
-            accuracy=self.accuracy,
-            maps=moments,
-            time_limit=self.time_limit,
+            maps=self.moments or (_FRAMES if caller.wants & {"film", "movie"} else 0),
             force_coarse=self.anyway,
-            checkpoint=self.checkpoint,
-            device=self.device,
             threads=min(os.cpu_count() or 1, _MOST_THREADS),
-            progress=lambda share: caller.tell({"share": share}),
+            progress=caller.share,
+            **self.values("accuracy", "time_limit", "checkpoint", "device"),
         )
         spread, measures = problem.roughness, stickiness(problem)
         about = {
@@ -124,12 +118,9 @@ class OfRough(Request):
             status=1 if found.outcome is Outcome.STOPPED else 0,
         )
 
-    def _superposed(self, caller: Caller) -> Answer:
-        """Answer by superposition of asperities."""
+    def _superposed(self, problem: Any, caller: Caller) -> Answer:
         from viscotack.plot.rough import draw_superposition
-        from viscotack.simulate.rough import read_rough, superposed
-
-        from .parts.tables import rows_as_csv
+        from viscotack.simulate.rough import superposed
 
         if unknown := sorted(caller.wants & {"maps", "film", "movie"}):
             raise InputError(
@@ -138,13 +129,8 @@ class OfRough(Request):
             )
         if self.checkpoint is not None or self.moments is not None:
             raise InputError("checkpoint and moments belong to the simulation, not to theory")
-        file = caller.file(self.file)
-        problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
         found = superposed(
-            problem,
-            accuracy=self.accuracy,
-            force_outside=self.anyway,
-            progress=lambda share: caller.tell({"share": share}),
+            problem, accuracy=self.accuracy, force_outside=self.anyway, progress=caller.share
         )
         return Answer(
             found,

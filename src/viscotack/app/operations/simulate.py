@@ -10,7 +10,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
 
 from .flags import INDENTERS
-from .options import Option, Output, contact, csv_file, file_name, number_of, picture, switch
+from .options import Option, binary_file, contact, csv_file, file_name, number_of, picture, switch
 from .parts.record_words import units_of
 from .request import Answer, Caller, Request
 
@@ -65,14 +65,7 @@ class Simulate(Request):
     word: ClassVar = "simulate"
     outputs: ClassVar = (
         *_FILES,
-        Output(
-            "save",
-            "Save all of the result, for viscotack show.",
-            "binary",
-            flags=("--save", "-o"),
-            done="saved",
-            endings=(".npz",),
-        ),
+        binary_file("save", "Save all of the result, for viscotack show.", ".npz", "--save", "-o"),
     )
     takes_own: ClassVar = True
     problem: Any = contact(
@@ -80,7 +73,6 @@ class Simulate(Request):
         metavar="sphere|punch|profile|disc|CASE.toml",
         indenters=INDENTERS,
         spelling="word",
-        expected="give sphere, punch, profile or disc, or a file CASE.toml",
         default=...,
     )
     until: Until = "detached"
@@ -106,16 +98,8 @@ class Simulate(Request):
         from .parts.running import run
 
         stated = self.stated(caller)
-        result = run(
-            stated.problem,
-            caller.tell,
-            accuracy=self.accuracy,
-            until=self.until,
-            time_limit=self.time_limit,
-            whole=self.whole,
-            profiles=self.profiles,
-            sensitivities=self.sensitivities,
-        )
+        how = ("accuracy", "until", "time_limit", "whole", "profiles", "sensitivities")
+        result = run(stated.problem, caller.tell, **self.values(*how))
         answer = _answer(result, self.plot_kind, caller)
         files = {**answer.files, "save": lambda target: save(result, target)}
         notes = (*stated.notes, *answer.notes)
@@ -200,21 +184,12 @@ def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
     shown = {n: x for n, x in record.items() if n not in (*_UNSAID, *result.groups.inputs)}
     if len(record["cycles"]) < 2 and all(x["snap_in_depth"] is None for x in record["cycles"]):
         del shown["cycles"]  # the pull-off says it all
-    if began := record["shallow_start"]:
-        shown["shallow_start"] = (
-            f"begun at {began['depth']:.5g} h0 and not {began['asked']:.4g} h0, which changes the "
-            f"force by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, the "
-            f"depth by {began['shift']:.1g} h0; curve and time begin there"
-        )
-    del shown["error_estimate"], shown["wall_time_s"]
     relative = {"force": f"pull_off_{result.problem.outputs.name_of('force')}"}
     relative["work"] = "work_to_pull_off"
-    for name, error in (record["error_estimate"] or {}).items():
+    for name, error in (shown.pop("error_estimate") or {}).items():
         known = relative.get(name)
         shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
-    if record["error_estimate"] is None:
-        shown["numerical_error"] = "not known: no coarser run to compare with"
-    shown["wall_time_s"] = record["wall_time_s"]
+    shown["wall_time_s"] = shown.pop("wall_time_s")
     if (found := result.sensitivities) is not None:
         first = next(iter(found.elasticities.values()), {})
         shown["sensitivities"] = [

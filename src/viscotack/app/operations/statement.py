@@ -1,19 +1,22 @@
 """The problem of a request: an object, a case file, its tables, or the flags of an indenter."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
+from viscotack.units import is_number
 
-from .flags import FLAGS, INDENTERS, stated
+from .flags import INDENTERS, is_in_si, named_as_flags, tables_of
 from .options import Contact, quoted
 from .request import Caller
 
 if TYPE_CHECKING:
     from viscotack.model.materials.passport import Passport
     from viscotack.model.problem import Case
+    from viscotack.model.problem.nouns import Nouns
+    from viscotack.model.problem.tables import Reading
 
 # Keys of a statement by flags, and of one by a file.
 _INDENTER, _CASE, _TEMPERATURE, _SET = "indenter", "case", "temperature", "set"
@@ -74,29 +77,30 @@ def statement(given: Any, option: Contact, caller: Caller) -> Statement:
         given = {_CASE: given}
     if not isinstance(given, Mapping):
         return Statement(_checked(given, option))
-    given = {name: value for name, value in given.items() if value is not None and value != []}
-    if _CASE in given:
-        return _of_case(given, option, caller)
-    if _INDENTER in given:
-        word = given[_INDENTER]
-        if word not in option.indenters:
-            known = ", ".join(option.indenters)
-            raise InputError(f"indenter must be one of {known}, got {word!r:.60}", field=_INDENTER)
-        said = {n: x for n, x in given.items() if n != _INDENTER}
-        pure = [n for n in said if n in FLAGS and not FLAGS[n].si]
-        if option.in_si and pure:
-            raise InputError(
-                f"{pure[0]} is dimensionless, and this problem is stated in SI; leave it out",
-                field=pure[0],
-            )
-        return stated(word, said, caller)
-    from viscotack.model.problem.case_file import passport_of, problem_of
     from viscotack.model.problem.nouns import known
     from viscotack.model.problem.tables import Reading
 
-    reading = Reading("the problem", known(caller.also), caller.file, bare=True)
-    problem = _checked(problem_of(given, reading), option)
-    passport, deviation = passport_of(given, reading)
+    nouns = known(caller.also)
+    given = {name: value for name, value in given.items() if value is not None and value != []}
+    if _CASE in given:
+        return _of_case(given, option, caller, nouns)
+    if _INDENTER not in given:
+        return _read(given, Reading("the problem", nouns, caller.file, bare=True), option)
+    word = given.pop(_INDENTER)
+    if word not in option.indenters:
+        words = ", ".join(option.indenters)
+        raise InputError(f"indenter must be one of {words}, got {word!r:.60}", field=_INDENTER)
+    with named_as_flags(word, in_si=is_in_si(given)):
+        tables = tables_of(word, given, nouns)
+        return _read(tables, Reading("the options", nouns, caller.file), option)
+
+
+def _read(tables: Mapping[str, Any], reading: "Reading", option: Contact) -> Statement:
+    """Return the problem of tables, and the passport of its material."""
+    from viscotack.model.problem.case_file import passport_of, problem_of
+
+    problem = _checked(problem_of(tables, reading), option)
+    passport, deviation = passport_of(tables, reading)
     return Statement(problem, deviation, passport)
 
 
@@ -111,12 +115,12 @@ def _checked(problem: Any, option: Contact) -> Any:
     return problem
 
 
-def _of_case(given: Mapping[str, Any], option: Contact, caller: Caller) -> Statement:
+def _of_case(
+    given: Mapping[str, Any], option: Contact, caller: Caller, nouns: "Nouns"
+) -> Statement:
+    """Return the problem of a file, at another temperature or with other numbers."""
     from viscotack.files.toml import read_toml
-    from viscotack.model.problem.case_file import passport_of, problem_of
-    from viscotack.model.problem.nouns import known
     from viscotack.model.problem.tables import Reading
-    from viscotack.units import parse
 
     if not isinstance(given[_CASE], str | Path):
         raise InputError(f"case must be the name of a file, got {given[_CASE]!r:.60}", field=_CASE)
@@ -124,25 +128,24 @@ def _of_case(given: Mapping[str, Any], option: Contact, caller: Caller) -> State
     beside = [n for n in given if n not in (_CASE, _TEMPERATURE, _SET, _INDENTER)]
     if beside:
         raise InputError(f"{case} defines the whole problem; leave out {quoted(beside)}")
-    kelvin = None
-    if _TEMPERATURE in given:
-        try:
-            kelvin = parse(given[_TEMPERATURE], "K")
-        except InputError as error:
-            raise InputError(
-                f'temperature: {error}; for example "0 degC"', field=_TEMPERATURE
-            ) from None
     tables = read_toml(case)
-    reading = Reading(str(case), known(caller.also), caller.within(case).file)
-    problem = _checked(problem_of(tables, reading, kelvin), option)
+    if (kelvin := given.get(_TEMPERATURE)) is not None:
+        if "passport" not in tables.get("material", {}):
+            raise InputError(
+                "temperature needs a material from a passport, which contains the shift of its "
+                "times",
+                field=_TEMPERATURE,
+            )
+        kelvin = kelvin if isinstance(kelvin, str) else f"{kelvin!r} K"
+        tables = tables | {"material": tables["material"] | {_TEMPERATURE: kelvin}}
+    found = _read(tables, Reading(str(case), nouns, caller.within(case).file), option)
     if _SET in given:
-        problem = _with_numbers(problem, given[_SET], tables)
-    passport, deviation = passport_of(tables, reading, kelvin)
-    found = Statement(problem, deviation, passport)
+        found = replace(found, problem=_with_numbers(found, given[_SET]))
+    problem = found.problem
     if not hasattr(problem, "geometry"):  # a map of heights
         return found
     wanted, indenter = given.get(_INDENTER), indenter_of(problem)
-    if wanted not in (None, indenter) or not (option.whole or indenter in option.indenters):
+    if wanted not in (None, indenter):
         command = indenter if indenter in INDENTERS else "case"
         raise InputError(f"{case} contains a {indenter}; use viscotack simulate {command} {case}")
     return found
@@ -156,28 +159,28 @@ def indenter_of(problem: Any) -> str:
     return "profile" if is_profile else problem.geometry.word
 
 
-def _with_numbers(problem: Any, said: Any, tables: Mapping[str, Any]) -> Any:
-    """Return a problem with numbers replaced, each as ``sphere.radius=6 mm``."""
-    from viscotack.model.problem import Groups
-    from viscotack.model.problem.inputs import changed, inputs_of
-    from viscotack.units import parse
+def _with_numbers(found: Statement, said: Any) -> Any:
+    """Return a problem with numbers replaced, each as ``sphere.radius=6 mm``: a row of changes."""
+    from viscotack.model.problem.changes import changes_of
 
-    known, values = inputs_of(problem), dict[str, float]()
+    row: dict[str, str] = {}
     for words in said if isinstance(said, list | tuple) else [said]:
         name, equals, text = (part.strip() for part in str(words).partition("="))
-        if name in values:
-            raise InputError(f"set: {name} is given twice; leave one out", field=_SET)
-        if not equals or name not in known:
+        if not equals or name in row:
             raise InputError(
-                f'set must name a number of the file, sphere.radius="6 mm", got {words!r:.60}; '
-                f"it has {', '.join(known)}",
+                f'set must name each number once, sphere.radius="6 mm", got {words!r:.60}',
                 field=_SET,
             )
-        if name.startswith("material.") and "passport" in tables["material"]:
-            raise InputError(f"set: {name}: the passport defines the whole material", field=_SET)
-        unit = "1" if isinstance(problem, Groups) else known[name].unit
-        try:
-            values[name] = known[name].card.checked(name, parse(text, unit), unit)
-        except InputError as error:
-            raise InputError(f"set: {name}: {error}", field=_SET) from None
-    return changed(problem, values)
+        row[name] = text
+    try:
+        changes = changes_of(found.problem, row)
+        if changes.carried:
+            raise InputError(f"the problem has no number {changes.carried[0]!r}")
+        for column in changes.columns:
+            if found.passport is not None and column.number.path.startswith("material."):
+                raise InputError(f"{column.heading}: the passport defines the whole material")
+            if column.in_si and column.number.unit != "1" and is_number(row[column.heading]):
+                raise InputError(f"{column.heading} has no unit, got {row[column.heading]}")
+        return changes.kind().problem(changes.values(row))
+    except InputError as error:
+        raise InputError(f"set: {error}", field=_SET) from None

@@ -1,6 +1,7 @@
 """The operations ``theory jkr``, ``disc``, ``maugis`` and ``crack-contact``: no simulation."""
 
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -12,11 +13,6 @@ from .parts.layer import OnLayer
 from .parts.record_words import read
 from .parts.tables import write_table
 from .request import Answer, Caller, Request
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from viscotack.simulate.crack_contact.by_crack import CrackContact
 
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0)
 _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0)
@@ -45,11 +41,8 @@ class Jkr(OnLayer):
         from viscotack.theory.elastic import relaxed
 
         body = self.body
-        solid: Any = {
-            "shape": Sphere(self.radius),
-            "contact_modulus": self.contact_modulus,
-            "work_of_adhesion": self.work_of_adhesion,
-        }
+        solid: Any = {"shape": Sphere(self.radius)}
+        solid |= self.values("contact_modulus", "work_of_adhesion")
         end, fold = film.pull_off(body=body, **solid), film.instability(body=body, **solid)
         free = relaxed.contact(AtForce(0.0), body=body, **solid)
         assert free is not None, "every JKR contact has a state without load"
@@ -62,7 +55,7 @@ class Jkr(OnLayer):
             "instability_depth_m": fold.depth,
         }
         if isinstance(body, Layer):
-            limit = {"radius": self.radius, "work_of_adhesion": self.work_of_adhesion}
+            limit = self.values("radius", "work_of_adhesion")
             record |= {
                 "over_half_space": end.force / film.pull_off(body=HalfSpace(), **solid).force,
                 "thin_limit_N": film.thin_limit(base=body.base, **limit),
@@ -156,8 +149,7 @@ class Maugis(Request):
 
     @property
     def _sphere(self) -> dict[str, Any]:
-        names = ("radius", "contact_modulus", "work_of_adhesion", "strength")
-        return {name: getattr(self, name) for name in names}
+        return self.values("radius", "contact_modulus", "work_of_adhesion", "strength")
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
@@ -204,7 +196,7 @@ class OfCrack(Request):
     outputs: ClassVar = (csv_file("Write the history as CSV, dimensionless.", "curve"), picture())
     takes_own: ClassVar = True
 
-    problem: Any = contact("The contact, of a sphere.", whole=False, default=...)
+    problem: Any = contact("The contact, of revolution.", default=...)
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the history."""
@@ -213,32 +205,14 @@ class OfCrack(Request):
 
         stated = self.stated(caller)
         problem = stated.problem
-        assert isinstance(problem, Problem | Groups), "stated as that of a sphere"
+        assert isinstance(problem, Problem | Groups), "of no map of heights"
         found = crack_contact(problem)
         record = summary(found)
-        return Answer(
-            found,
-            data=lambda: record,
-            files={"curve": lambda target: write_table(read(found, *_HISTORY), target)},
-            pictures={"plot": lambda: _drawn(found)},
-            notes=stated.notes,
-        )
+        labels = ("depth / h0", "force / (1.5 pi R dg0)")
+        answer = closed_form(found, record, (found.depth, found.force), labels)
+        files = {"curve": lambda target: write_table(read(found, *_HISTORY), target)}
+        return replace(answer, files=files, notes=stated.notes)
 
 
 # Columns of the history.
 _HISTORY = ("time", "depth", "force", "contact_radius", "edge_speed", "amplification", "move")
-
-
-def _drawn(found: "CrackContact") -> "Figure":
-    from matplotlib.figure import Figure
-
-    figure = Figure(layout="constrained")
-    axes = figure.subplots()
-    axes.plot(found.depth, found.force)
-    if found.depth_at_pull_off is not None and found.pull_off_force is not None:
-        band = found.band * found.pull_off_force
-        axes.errorbar(found.depth_at_pull_off, -found.pull_off_force, yerr=band, fmt="o", capsize=3)
-    axes.set_xlabel("depth / h0")
-    axes.set_ylabel("force / (1.5 pi R dg0)")
-    axes.axhline(0.0, color="0.7", linewidth=0.8)
-    return figure

@@ -162,13 +162,13 @@ class Scales(Reduced):
     @property
     def units(self) -> tuple[float, float] | None:
         """The units of length [m], E0* h0^2/dg, and speed [m/s], or None where none is given."""
-        numbers = [getattr(self, name) for name in _SCALES]
-        missing = [n for n, x in zip(_SCALES, numbers, strict=True) if x is None]
+        scales = self.values(*_SCALES)
+        missing = [name for name, x in scales.items() if x is None]
         if len(missing) == len(_SCALES):
             return None
         if missing:
             raise InputError(f"{quoted(missing)} missing for an answer in SI")
-        E, w, h0, tau = numbers
+        E, w, h0, tau = scales.values()
         length = E * h0**2 / w
         return length, length / tau
 

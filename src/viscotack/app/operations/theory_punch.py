@@ -40,7 +40,6 @@ class OfPad(Request):
     problem: Any = contact(
         "The punch, its layer and its interface in SI; the start of the test does not matter.",
         indenters=("punch",),
-        whole=False,
         in_si=True,
         default=...,
     )

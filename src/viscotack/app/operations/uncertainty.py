@@ -57,14 +57,12 @@ class OfUncertainty(Request):
     )
     scatter: tuple[Any, ...] = text(
         'A number and its relative standard deviation, "protocol.speed 5 %".',
-        metavar="TEXT",
         to=_deviation,
         default=(),
     )
     passport: Any = named(
         "A passport, or the name of a published material, in place of the material; its "
-        "sampled solids, or its intervals, are its uncertainty.",
-        metavar="PASSPORT",
+        "sampled solids, or its intervals, are its uncertainty."
     )
     temperature: float | None = number(
         'Temperature, "25 degC"; default: that of the passport.', "K"
@@ -77,8 +75,7 @@ class OfUncertainty(Request):
     )
     study: Path | None = file_name(
         "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
-        "place of the interface.",
-        metavar="STUDY",
+        "place of the interface."
     )
     confidence: float = number("Fraction inside the band.", above=0, most=0.999, default=0.9)
     samples: int = option("Number of predictions.", default=256, ge=6, le=10_000)
@@ -102,20 +99,13 @@ class OfUncertainty(Request):
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
         problem, sampled, times = self._known(caller)
-        if not (deviations or sampled or times):
-            raise InputError(
-                'give scatter, such as "sphere.radius 2 %", or what a passport or a study knows'
-            )
         found = uncertainty(
             problem,
             deviations,
             sampled=sampled,
             times=times,
-            confidence=self.confidence,
-            samples=self.samples,
-            seed=self.seed,
-            budget=self.budget,
-            progress=lambda share: caller.tell({"share": share}),
+            progress=caller.share,
+            **self.values("confidence", "samples", "seed", "budget"),
         )
         rows = [
             {

@@ -62,25 +62,16 @@ class OfWindow(Request):
             maps.append(
                 window(
                     each.stamp,
-                    donor=each.donor,
-                    receiver=each.receiver,
-                    speeds=each.speeds,
-                    preloads=each.preloads,
-                    stiffness=each.stiffness,
-                    scatter=each.scatter,
-                    simulate=self.simulate,
-                    accuracy=self.accuracy,
-                    time_limit=self.time_limit,
+                    **{name: getattr(each, name) for name in _OF_MAP},
                     progress=tell,
+                    **self.values("simulate", "accuracy", "time_limit"),
                 )
             )
         scattered = stated[0].scatter is not None
-        cells: list[dict[str, Any]] = []
-        critical: list[dict[str, Any]] = []
-        for each, found in zip(stated, maps, strict=True):
-            at = _place(each)
-            cells += [at | _cell(x) | (_yields(x) if scattered else {}) for x in found.cells]
-            critical += [at | _critical(x) for x in found.critical_speeds]
+        pairs = list(zip(map(_place, stated), maps, strict=True))
+        more = _yields if scattered else lambda cell: {}
+        cells = [at | _cell(x) | more(x) for at, found in pairs for x in found.cells]
+        critical = [at | _critical(x) for at, found in pairs for x in found.critical_speeds]
         first = _place(stated[0])
         columns = [*first, *_CELL, *(_YIELD if scattered else ())]
         return Answer(
@@ -118,6 +109,8 @@ def _yields(cell: Any) -> dict[str, Any]:
     return dict(zip(_YIELD, [*values, cell.transfer], strict=True))
 
 
+# Of a map of the file, as keywords.
+_OF_MAP = ("donor", "receiver", "speeds", "preloads", "stiffness", "scatter")
 _YIELD = ("pick_probability", "pick_low", "pick_high", "print_probability", "print_low")
 _YIELD += ("print_high", "transfer_probability")
 _OF_BASE = ("opens", "tension_N", "held", "method")

@@ -171,4 +171,4 @@ export function contact(host, store) {
 
 // The pull-off at other speeds with its band, and what was measured there.
 export const ofSpeeds = ({ speed: x, low, high, force: y, words }, colour = words === "surrogate" ? "c1" : "c2") => [{ kind: "band", x, low, high, colour, words: "band of 90 % of cases" }, { kind: "line", x, y, colour, words }];
-export const measured = ({ curves }) => ({ kind: "points", x: curves.map(({ speed }) => speed), y: curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });
+export const measured = ({ curves }) => ({ kind: "points", x: curves.map((one) => one.speed_m_s), y: curves.map((one) => one.pull_off_force_N), colour: "c3", words: "measured" });

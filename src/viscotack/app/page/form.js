@@ -58,7 +58,7 @@ export async function compute(host, path, body, options) {
 
 // A laboratory's files, read by an operation when they are dropped: what they do not say becomes fields. The answer is
 // given to `told`, null where there is none.
-export function reader(operation, id, words, told) {
+export function reader(operation, id, words, told, outputs = []) {
   const form = new Form(operation, id, ["files"]), said = h("div", { role: "status" }), found = { form, said, take, ask, drop: dropped(words, `${id}-files`, take) };
   let files = [];
   form.needed.addEventListener("change", () => files.length && take(files));
@@ -68,7 +68,7 @@ export function reader(operation, id, words, told) {
     files = taken;
     let answer = null;
     try {
-      answer = (await ask(said, operation.path, {}, ["drawn"]))?.beside.drawn;
+      answer = (await ask(said, operation.path, {}, ["drawn", ...outputs]))?.beside;
     } catch (error) {
       said.replaceChildren(form.refused(error.message), button("Read it again", () => take(files)));
     }

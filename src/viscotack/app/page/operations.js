@@ -69,7 +69,7 @@ export const operations = (id, ...words) => (host, store) => {
   function tell({ beside: { words: said, notes, files = {} }, ...record }) {
     const text = JSON.stringify(record, null, 2), pictures = [], saves = [button("Save as JSON", () => save("answer.json", text))];
     for (const { name, kind, words: of } of operation.outputs.filter((one) => one.name in files)) {
-      if (kind === "picture") { pictures.push(h("img", { src: URL.createObjectURL(new Blob([files[name]], { type: "image/svg+xml" })), alt: `${operation.word}: ${name}` })); continue; }
+      if (kind === "picture") { pictures.push(picture(files[name], `${operation.word}: ${name}`)); continue; }
       const content = kind === "binary" ? new Blob([Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0))]) : files[name];
       const ending = ENDINGS[name] || /FILE(\.\w+)/.exec(of)?.[1] || (/a row|table|Write (force|depth)/.test(of) ? ".csv" : "");
       saves.push(button(`Save ${name}`, () => save(`${operation.path.replaceAll("/", "-")}-${name}${ending}`, content)));
@@ -79,3 +79,6 @@ export const operations = (id, ...words) => (host, store) => {
     told.replaceChildren(h("div", { class: "row" }, saves), h("pre", { tabindex: 0, role: "region", "aria-label": "Answer in words" }, lines), ...pictures, ...notes.map((note) => h("p", { class: "hint" }, note)));
   }
 };
+
+// A figure that the server has drawn.
+export const picture = (svg, alt) => h("img", { src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })), alt });

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from viscotack.cards import Pairs, Quantity, cards, plausible
-from viscotack.errors import InputError
+from viscotack.errors import InputError, wrong_value
 from viscotack.model.problem.nouns import Nouns, known
 from viscotack.units import parse
 
@@ -24,13 +24,6 @@ T = TypeVar("T")
 
 # Hint for unknown laws, materials and shapes.
 OWN = "; give a user-defined one with --with FILE.py, in Python with also="
-# What pydantic's types of errors say.
-_WANTED = {
-    "tuple_type": "a list",
-    "string_type": "text",
-    "int_type": "a whole number",
-    "bool_type": "true or false",
-}
 # Tables of one kind of file: the command that reads it, and what it has.
 _ELSEWHERE = {
     "surface": ("rough", "a map of heights"),
@@ -104,7 +97,7 @@ class Reading:
         try:
             return self.number(card, value)
         except InputError as error:
-            words = f"{self.where}, [{table}] {_after(key, str(error))}"
+            words = f"{self.where}, [{table}] {_after(key, str(error).strip())}"
             raise InputError(words, field=f"{table}.{key}") from None
 
     def parsed(self, value: Any, unit: str, example: str = "") -> float:
@@ -224,15 +217,11 @@ def _words(kind: Any, error: "ValidationError", reading: Reading) -> str:
         return f"{listed} {verb} missing; write for example {examples}"
     first = found[0]
     key = str(first["loc"][0]) if first["loc"] else ""
-    own = first.get("ctx", {}).get("error")
-    wanted = _WANTED.get(first["type"], first["msg"].removeprefix("Input should be "))
-    words = str(own or f"must be {wanted}, got {first['input']!r:.60}")
-    return _after(key, words) if key else words
+    return _after(key, wrong_value(first)) if key else wrong_value(first)
 
 
 def _after(key: str, words: str) -> str:
     """Return what is wrong with a key, behind its name."""
-    words = words.strip()
     return f"{key} {words}" if words.startswith(("must ", "has no unit")) else f"{key}: {words}"
 
 

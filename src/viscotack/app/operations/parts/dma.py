@@ -1,9 +1,9 @@
 """Options for the files of a DMA, relaxation or creep test."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
-from ..options import Option, number, option, switch
+from ..options import number, option, switch
 from ..request import Request
 
 if TYPE_CHECKING:
@@ -17,23 +17,30 @@ if TYPE_CHECKING:
         | tuple[CreepTest, ...]
     )
 
-Where = Annotated[
-    str | None,
-    Option(
+
+class OfFiles(Request):
+    """Options that describe files of any instrument."""
+
+    format: str | None = option("Format of the files, if it is not detected.")
+    time_unit: str | None = option("Unit such as s, if not in the file.", example="s")
+    decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
+    where: str | None = option(
         "Rows to read, by heading and content of a column.",
         metavar="COLUMN=VALUE",
         example="Sample=A",
-    ),
-]
+    )
+    temperature_in_name: bool = switch(
+        "Read the temperature from the name of each file, as in foam_-25C.csv; default: from a "
+        "column or a line above the columns with a unit."
+    )
 
 
-class Dma(Request):
+class Dma(OfFiles):
     """Options that describe the files of a DMA or another test of a material."""
 
     test: Literal["dma", "relaxation", "creep"] | None = option(
         "Kind of test; default: by the columns."
     )
-    format: str | None = option("Format of the file, if it is not detected.")
     kind: str | None = option(
         "Tensile or shear modulus, if the file does not state it.", metavar="E|G", example="E"
     )
@@ -44,14 +51,9 @@ class Dma(Request):
     modulus_unit: str | None = option(
         "Unit such as MPa, if the file does not state it.", example="MPa"
     )
-    time_unit: str | None = option("Unit such as s, if the file does not state it.", example="s")
     temperature_unit: str | None = option(
         "degC, K or degF, if columns or header lines do not state it.", example="degC"
     )
-    temperature_in_name: bool = switch(
-        "Read the temperature from the name of each file, as in foam_-25C.csv."
-    )
-    decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
     step_start: float = number(
         "Time of the step, if the file counts time from the start of the whole test.",
         "s",
@@ -63,7 +65,6 @@ class Dma(Request):
         metavar="NAMES",
         example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
     )
-    where: Where = None
     table: str | None = option(
         "Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"
     )
@@ -72,5 +73,4 @@ class Dma(Request):
         """Read the files: sweeps of one material, or tests over time."""
         from viscotack.lab import read
 
-        said: dict[str, Any] = {name: getattr(self, name) for name in Dma.model_fields}
-        return read(files, **said)
+        return read(files, **self.values(*Dma.model_fields))

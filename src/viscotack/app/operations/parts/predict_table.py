@@ -110,31 +110,24 @@ def predict_changes(
         "passport": None if is_other else stated.passport,
         "shift_deviation": stated.deviation,
     }
-    known: dict[tuple[float, ...], dict[str, Any]] = {}
 
     def answer(row: Mapping[str, Any]) -> dict[str, Any]:
+        inputs, outputs, why = None, None, ""
         try:
             inputs = changes.values(row)
-        except InputError as error:
-            return {"inputs": None, "outputs": None, "why": str(error)}
-        case = tuple(inputs.values())
-        if case not in known:
-            outputs, why = None, ""
-            try:
-                with limited(time_limit):
-                    outputs = prediction_summary(predict(kind.problem(inputs), **options))
-            except (InputError, TimeUp) as error:
-                why = str(error)
-            except ArithmeticError:
-                why = TOO_LARGE
-            else:
-                outputs = {name: x for name, x in outputs.items() if name not in _LEFT_OUT}
-                why = outputs.pop("why")
-                if outputs["inside"] and outputs["method"] in METHOD.values():
-                    why = ""
-            whys = filter(None, [*changes.unusual(inputs), why])
-            known[case] = {"outputs": outputs, "why": "; ".join(whys)}
-        return {"inputs": inputs, **known[case]}
+            with limited(time_limit):
+                outputs = prediction_summary(predict(kind.problem(inputs), **options))
+        except (InputError, TimeUp) as error:
+            why = str(error)
+        except ArithmeticError:
+            why = TOO_LARGE
+        else:
+            outputs = {name: x for name, x in outputs.items() if name not in _LEFT_OUT}
+            why = outputs.pop("why")
+            if outputs["inside"] and outputs["method"] in METHOD.values():
+                why = ""
+        whys = filter(None, [*changes.unusual(inputs or {}), why])
+        return {"inputs": inputs, "outputs": outputs, "why": "; ".join(whys)}
 
     found = answered_rows(changes, rows, answer, tell, "why")
     answers: Rows = [one["outputs"] or {} for one in found]

@@ -1,29 +1,18 @@
 """Options for the files of a tack tester or microscope."""
 
-from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from ..options import File, number, option, switch, text
-from ..request import Caller, Request
-from .dma import Where
+from ..options import file_name, number, option, switch, text
+from ..request import Caller
+from .dma import OfFiles
 
 if TYPE_CHECKING:
     from viscotack.lab.tack import Survey
 
-Files = Annotated[
-    tuple[Path, ...],
-    File(
-        "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
-        "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
-        "test; a folder means all files in it.",
-        metavar="FILE...",
-        argument=True,
-    ),
-]
 _SIGNS = {"+": 1, "-": -1, "1": 1, "-1": -1}
 
 
@@ -35,36 +24,25 @@ def _sign(value: Any) -> int:
     return sign
 
 
-def _unit_of(quantity: str) -> Callable[[Any], str]:
-    """Return a function that checks the unit of a quantity: "force", "travel" or "time"."""
-
-    def read(words: Any) -> str:
-        from viscotack.lab.formats.headings import UNITS, scale
-
-        if not isinstance(words, str):
-            raise InputError(f"must be a unit, got {words!r:.60}")
-        scale(words, UNITS[quantity])
-        return words
-
-    return read
-
-
-class Rig(Request):
+class Rig(OfFiles):
     """A request with files of a rig, and what describes them and the rig itself."""
 
-    files: Files
+    files: tuple[Path, ...] = file_name(
+        "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
+        "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
+        "test; a folder means all files in it.",
+        metavar="FILE...",
+        argument=True,
+        default=...,
+    )
 
-    format: str | None = option("Format of the files, if it is not detected.")
-    force_unit: str | None = text("Unit such as mN, if not in the file.", to=_unit_of("force"))
-    length_unit: str | None = text("Unit such as um, if not in the file.", to=_unit_of("travel"))
-    time_unit: str | None = text("Unit such as s, if not in the file.", to=_unit_of("time"))
+    force_unit: str | None = option("Unit such as mN, if not in the file.")
+    length_unit: str | None = option("Unit such as um, if not in the file.")
     force_column: str | None = option("Heading or number of the force column, if not detected.")
     position_column: str | None = option(
         "Heading or number of the gap, depth or travel column, if there are several."
     )
     time_column: str | None = option("Heading or number of the time column, if not detected.")
-    decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
-    where: Where = None
     nominal_speed: float | None = number(
         'Nominal speed, "10 um/s", if a file has no time; it is not checked.', "m/s"
     )
@@ -74,10 +52,6 @@ class Rig(Request):
     sensitivity: float | None = number(
         'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it (NT-MDT).',
         "m/A",
-    )
-    temperature_in_name: bool = switch(
-        "Read the temperature from the name of each file, as in probe_25C.csv; default: from "
-        "a column or a line above the columns with a unit."
     )
     compliance: float | None = number(
         'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
@@ -106,26 +80,16 @@ class Rig(Request):
         "Accept curves without approach; the force zero is then taken after pull-off."
     )
 
-    @property
-    def reading(self) -> dict[str, Any]:
-        """Keywords of :func:`viscotack.lab.tack.read`."""
-        from viscotack.lab import TackOptions
-
-        names = {each.name for each in fields(TackOptions)}
-        return {name: value for name, value in self if name in names}
-
-    @property
-    def evaluation(self) -> dict[str, Any]:
-        """Keywords of :func:`viscotack.lab.tack.evaluate`."""
-        names = ("compliance", "compliance_uncertainty", "into", "compression", "retraction_only")
-        return {name: getattr(self, name) for name in names}
-
     def survey(self, caller: Caller) -> "Survey":
         """Read and evaluate the files; InputError if no cycle can be evaluated."""
+        from viscotack.lab import TackOptions
         from viscotack.lab.tack import survey
 
         files = tuple(caller.file(each) for each in self.files)
-        found = survey(files, reading=self.reading, evaluation=self.evaluation)
+        of_file = {each.name for each in fields(TackOptions)}
+        reading = {name: value for name, value in self if name in of_file}
+        names = ("compliance", "compliance_uncertainty", "into", "compression", "retraction_only")
+        found = survey(files, reading=reading, evaluation=self.values(*names))
         if not found.cycles:
             reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
             raise InputError(f"no cycle of a tack test could be read:\n  {reasons}")

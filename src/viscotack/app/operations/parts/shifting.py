@@ -121,11 +121,9 @@ class Shifting(ShiftLaw):
 
         curve, shift, doubts = at_one_temperature(
             measured,
-            reference_temperature=self.reference_temperature,
             shift=self.law(caller),
             by=self.shift_by,
-            vertical=self.vertical,
-            leave_out=self.leave_out,
+            **self.values("reference_temperature", "vertical", "leave_out"),
         )
         glass = self.glass_transition
         known = curve.temperature if isinstance(curve, MasterCurve) else None

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from viscotack.errors import InputError
 
-from ..flags import FLAGS, material_table, needs_of
+from ..flags import FLAGS, named_as_flags, table_of_solid
 from ..options import Named, named, number, quoted
 from ..request import Caller, Request
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 # How a text begins that states a solid itself.
 TABLE = "[material]"
 _WORDS = "A material passport, or the name of a published material such as pdms-10-1"
-APassport = Annotated[Any, Named(f"{_WORDS}.", metavar="PASSPORT", argument=True)]
-Solid = Annotated[Any, Named(f"{_WORDS}; or the text of a table {TABLE}.", metavar="PASSPORT")]
+APassport = Annotated[Any, Named(f"{_WORDS}.", argument=True)]
+Solid = Annotated[Any, Named(f"{_WORDS}; or the text of a table {TABLE}.")]
 
 
 def passport_of(given: "str | Passport", caller: Caller) -> "Passport":
@@ -58,7 +58,7 @@ class Reduced(Request):
     @property
     def given(self) -> dict[str, Any]:
         """Given options of the material by name."""
-        said = {name: getattr(self, name) for name in Reduced.model_fields}
+        said = self.values(*Reduced.model_fields)
         return {name: value for name, value in said.items() if value is not None}
 
     def solid(self, caller: Caller, usual: str = "power-law") -> "Material":
@@ -69,15 +69,13 @@ class Reduced(Request):
         from viscotack.model.problem.tables import Reading
 
         nouns, words = known(caller.also), self.material or usual
+        numbers = {name: x for name, x in self.given.items() if name != "material"}
         if isinstance(words, Passport):
-            if beside := [name for name in self.given if name != "material"]:
+            if numbers:
                 raise InputError(
-                    f"{words.name} defines the whole material; leave out `{beside[0]}`"
+                    f"{words.name} defines the whole material; leave out {quoted(numbers)}"
                 )
             return words.material.reduced()
-        table = material_table(words, self.given, nouns=nouns)
-        if missing := [name for name in needs_of(words, nouns) if name not in self.given]:
-            raise InputError(
-                f"{quoted(missing)} missing for the material {words}", field=missing[0]
-            )
-        return material_of(table, Reading("the material", nouns, caller.file, pure=True))
+        with named_as_flags("sphere", in_si=False):
+            table = table_of_solid(words, numbers, nouns)
+            return material_of(table, Reading("the options", nouns, caller.file, pure=True))

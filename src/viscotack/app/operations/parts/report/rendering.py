@@ -19,7 +19,7 @@ from viscotack.model.materials.passport_words import in_words
 from viscotack.version import __version__
 
 from ..record_words import cells_of, quantities, read
-from ..records import conditions, cycle_row, forecast_rows, rates_record, repeat_rows
+from ..records import conditions, cycle_row, forecast_rows, rates_record, repeat_rows, series_record
 from ..tables import Writer, rows_as_csv
 
 if TYPE_CHECKING:
@@ -65,7 +65,10 @@ def page(found: "Identified", forecast: RateForecast) -> str:
         words=fit.words,
         cautions=forecast.words,
         facts=_facts(found, record, repeats),
-        solutions=_table(_solutions(found)),
+        solutions=_table(
+            {"work_of_adhesion_J_m2": one["work_of_adhesion"], "range h₀_m": one["equilibrium_gap"]}
+            for one in record["solutions"][len(record["solutions"]) < 2 :]
+        ),
         repeats=_table(repeat_rows(repeats, found.fit.given.radius)),
         tables=_tables(found, repeats, forecast),
         tests=_table(_tests(found)),
@@ -89,8 +92,17 @@ def page(found: "Identified", forecast: RateForecast) -> str:
     )
 
 
+_LABELS = {
+    "scatter": "residuals over their uncertainty",
+    "criterion": "criterion (the smaller the better)",
+    "series_scatter": "scatter of single tests",
+    "series_exponent": "exponent of force by speed",
+    "series_exponent_standard_error": "exponent of force by speed_standard_error",
+}
+
+
 def _facts(found: "Identified", record: dict[str, Any], repeats: SpeedTable) -> dict[str, str]:
-    """Return the numbers of a study and its fit, with their intervals, as text."""
+    """Return the numbers of a study and its fit as text; the sentences have the intervals."""
     given, fit, slowest = found.fit.given, found.fit, repeats.speeds[0]
     loads = [one.preload or 0.0 for one in fit.series]
     facts = {
@@ -99,51 +111,15 @@ def _facts(found: "Identified", record: dict[str, Any], repeats: SpeedTable) -> 
         "temperature_K": fit.passport.temperature,
         "preload_N": [min(loads), max(loads)] if given.preload is None else given.preload,
         **(record["layer"] or {}),
-    }
-    for name, ends in fit.intervals.items():
-        label, tail = _PARAMETERS[name]
-        low = ends.low if ends.closed_below else None
-        high = ends.high if ends.closed_above else None
-        facts |= {f"{label}{tail}": fit.best.values[name], f"{label}_interval{tail}": [low, high]}
-    grown = read(fit.growth, "opening_speed_m_s", "chance") if fit.growth is not None else {}
-    power = repeats.exponent
-    facts |= {
-        "strength grows where the gap opens with_m_s": grown.get("opening_speed_m_s"),
-        "chance of as much without growth": grown.get("chance"),
-        "tabor": fit.tabor,
-        "residuals over their uncertainty": fit.scatter,
-        "scatter from speed to speed beyond that": fit.between_speeds,
-        "scatter of single tests": repeats.scatter,
-        "exponent of force by speed": None if power is None else power.value,
-        "exponent of force by speed_standard_error": None if power is None else power.uncertainty,
         f"JKR work 2F/(3πR) at {conditions(None, slowest.speed)}_J_m2": jkr_work(
             slowest.force, given.radius
         ),
     }
+    rest = {"": record, "growth_": record["growth"] or {}, "series_": series_record(repeats)}
+    for head, of in rest.items():
+        numbers = {f"{head}{name}": x for name, x in of.items() if isinstance(x, float)}
+        facts |= {_LABELS.get(name, name): x for name, x in numbers.items()}
     return _said(facts)
-
-
-# Of the interface -> label, and unit at the end of a name.
-_PARAMETERS = {
-    "work_of_adhesion": ("work_of_adhesion", "_J_m2"),
-    "equilibrium_gap": ("range of attraction h₀", "_m"),
-    "strengthening": ("growth of strength", ""),
-    "exponent": ("exponent of growth", ""),
-    "growth_per_decade": ("growth of the work in a decade of contact time", ""),
-}
-
-
-def _solutions(found: "Identified") -> list[dict[str, Any]]:
-    """Return the separate interfaces that fit the forces; empty if there is one."""
-    several = found.fit.solutions
-    return [
-        {
-            "work_of_adhesion_J_m2": one.values["work_of_adhesion"],
-            "range h₀_m": one.values["equilibrium_gap"],
-            "likelihood": float(np.exp((several[0].misfit - one.misfit) / 2)),
-        }
-        for one in several[len(several) < 2 :]
-    ]
 
 
 def _tests(found: "Identified") -> list[dict[str, Any]]:
