@@ -22,7 +22,7 @@ from viscotack.theory.crack.contact import (
     profile_of,
     recede,
 )
-from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
+from viscotack.theory.crack.steady import _branch, _grown, _memory, _mesh, _start, comparison
 
 REST = LennardJones(1.0, 1.0)
 POWER = GentSchultz(1, 1, 1.0, 0.5)
@@ -49,17 +49,19 @@ def test_a_little_growth_adds_the_heat_of_the_crack_at_rest():
 
 @pytest.mark.parametrize("speed", [0.01, 1.0, 30.0])
 def test_in_an_elastic_solid_the_energy_is_work_of_adhesion_and_heat_of_the_interface(speed):
-    found = SteadyCrack(ELASTIC, POWER).at(speed)
+    crack = SteadyCrack(ELASTIC, POWER)
+    found = crack.at(speed)
     assert found.amplification == pytest.approx(1 + found.interface_heat, rel=2e-3, abs=0)
-    assert found.amplification == pytest.approx(
-        SteadyCrack(ELASTIC, POWER).amplification(speed), rel=2e-3, abs=0
-    )
+    assert found.amplification == pytest.approx(crack.amplification(speed), rel=2e-3, abs=0)
+    # between the computed cracks as well
+    assert crack.interface_work(speed) == pytest.approx(1 + found.interface_heat, rel=2e-5, abs=0)
 
 
 def test_a_finer_mesh_confirms_the_amplification():
     usual = SteadyCrack(SOLID, POWER)
     grid = _mesh.mesh(1.0, 3e4 / usual.modes.instantaneous, refined=2.0)
-    fine = _grown.Grown(grid, _start.pinned(REST), usual.modes, POWER, _start.elastic(REST, grid))
+    openings = _memory.Openings(grid, usual.modes, _branch.STEP)
+    fine = _grown.Grown(openings, _start.pinned(REST), POWER, _start.elastic(REST, grid))
     speed = np.array([0.1, 3.0])
     np.testing.assert_allclose(usual.amplification(speed), fine.gamma(np.log(speed)), rtol=3e-3)
 

@@ -160,6 +160,7 @@ def solved(system: System, guess: Array) -> Solution | None:
         size_of = max(np.max(np.abs(misfit[:-2]) / stiff), np.max(np.abs(misfit[-2:])))
         return gap, misfit, float(size_of), (parts, right)
 
+    opening_slopes = slopes(mesh, system.opening) if system.law.growing is not None else None
     u, short = guess, 0
     gap, misfit, size_now, parts = state(u)
     for _ in range(_ITERATIONS):
@@ -168,7 +169,7 @@ def solved(system: System, guess: Array) -> Solution | None:
         _, first, last, steeper = parts[0]
         slope = first[:, None] * system.opening[:-1] + last[:, None] * system.opening[1:]
         if steeper is not None:
-            slope += steeper[:, None] * slopes(mesh, system.opening)
+            slope += steeper[:, None] * opening_slopes
         matrix[:-2] = kernel - (slope if system.spread is None else system.spread @ slope)
         try:
             step = np.linalg.solve(matrix, -misfit)

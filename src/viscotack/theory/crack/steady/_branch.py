@@ -56,12 +56,22 @@ def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
 
 
 def walked(
-    system: Callable[[float, Solution], System], before: float, crack: Solution, aim: float
+    system: Callable[[float, Solution], System],
+    before: float,
+    crack: Solution,
+    aim: float,
+    guess: Array | None = None,
 ) -> Solution | None:
     """Continue a crack from one place to another in steps that converge; None if none does.
 
-    The balance at a place may depend on the previous crack.
+    The balance at a place may depend on the previous crack. A guess of the crack at the aim is
+    tried first.
     """
+    if guess is not None:
+        with one_blas_thread():
+            found = solved(system(aim, crack), guess)
+        if found is not None:
+            return found
     at, step = before, aim - before
     while True:
         towards = aim if abs(aim - at) <= abs(step) else at + step

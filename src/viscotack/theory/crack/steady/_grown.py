@@ -26,18 +26,18 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.model.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
 from ._branch import STEP, walked
 from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, curve, stated
-from ._memory import lengths_of, opening_matrix
-from ._mesh import Mesh
+from ._memory import Openings
 
 # Gamma - 1 of the first and the last computed crack, and largest number of cracks.
 _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
 # Gamma - 1 above which no further crack may exist: a shorter table is accepted.
 _ENOUGH = 4.0
+# Weights of the last cracks in the next one, cubic in ln y.
+_BEHIND = np.array([-1.0, 4.0, -6.0, 4.0])
 # Points of the inverse between two computed speeds.
 _FINE = 16
 
@@ -47,16 +47,19 @@ class Grown:
 
     Parameters
     ----------
-    mesh, law, modes
-        Of the crack at rest; times of the modes in the unit of time.
+    openings : Openings
+        Opening matrices of the solid, kept at multiples of ``STEP``; times of its modes in the unit
+        of time.
+    law : Law
+        The law at rest.
     growing : law that grows
         Reduced law, with speeds in h0 per unit of time.
     start : Solution
         The elastic crack of the law at rest.
     """
 
-    def __init__(self, mesh: Mesh, law: Law, modes: Modes, growing: Any, start: Solution) -> None:
-        self._mesh, self._law, self._modes, self._growing = mesh, law, modes, growing
+    def __init__(self, openings: Openings, law: Law, growing: Any, start: Solution) -> None:
+        self._openings, self._law, self._growing = openings, law, growing
         self._elastic, self._ended = start, False
         # message of the crack that was not found, which ends the list
         self._failed = ""
@@ -65,13 +68,13 @@ class Grown:
         self._log_gained: list[float] = []
         self._works: list[float] = []
         self._cracks: list[Solution] = []
-        self._table: tuple[int, Array, Array] | None = None
+        self._table: tuple[int, Array, Array, Array] | None = None
 
     @alone
     def gamma(self, log_speed: Array) -> Array:
         """Return amplifications at ln of speeds; constant beyond the last crack."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
-        speed, gained = self._curve()
+        speed, gained, _ = self._curves()
         below = _first_slope(speed, gained) * np.minimum(log_speed - speed[0], 0.0)
         return 1 + np.exp(np.interp(log_speed, speed, gained) + below)
 
@@ -79,15 +82,15 @@ class Grown:
     def work(self, log_speed: Array) -> Array:
         """Return the energies dissipated by the interface at ln of speeds [works of adhesion]."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
-        at = np.array(self._log_y) - np.array(self._log_work)
-        return np.interp(log_speed, np.maximum.accumulate(at), self._works)
+        speed, _, work = self._curves()
+        return np.interp(log_speed, speed, work)
 
     @alone
     def log_speed(self, gamma: Array) -> Array:
         """Return ln of the speeds of amplifications above 1."""
         wanted = np.log(gamma - 1)
         self._reach(gained=float(np.max(wanted, initial=-np.inf)))
-        speed, gained = self._curve()
+        speed, gained, _ = self._curves()
         below = np.minimum(wanted - gained[0], 0.0) / _first_slope(speed, gained)
         return np.interp(wanted, gained, speed) + below
 
@@ -96,7 +99,7 @@ class Grown:
     def largest(self) -> float:
         """Amplification of the last crack that exists or is computed."""
         self._reach(gained=np.inf)
-        return float(1 + np.exp(self._curve()[1][-1]))
+        return float(1 + np.exp(self._curves()[1][-1]))
 
     @alone
     def interpolation_error(self, log_speed: Array) -> Array:
@@ -115,12 +118,12 @@ class Grown:
         The crack is in scaled units: lengths over 1/work, tractions over work.
         """
         self._reach(speed=log_speed)
-        speed, _ = self._curve()
+        speed, _, _ = self._curves()
         places = np.interp(np.arange(speed.size) / _FINE, np.arange(len(self._log_y)), self._log_y)
         y = float(np.interp(log_speed, speed, places))
         i = int(np.argmin(np.abs(np.array(self._log_y) - y)))
         work = float(np.exp(y - log_speed))
-        found = solved(self._system(float(np.exp(y)), work), self._cracks[i].u)
+        found = solved(self._system(y, work), self._cracks[i].u)
         if found is None:
             raise InputError(
                 f"no steady crack was found at the speed {np.exp(log_speed):.4g}; choose a nearby "
@@ -157,7 +160,8 @@ class Grown:
     def _append(self) -> None:
         if self._cracks:
             before, crack = self._log_y[-1], self._cracks[-1]
-            y = before + STEP
+            # a multiple, for which the openings are kept
+            y = STEP * (round(before / STEP) + 1)
         else:
             y = self._slowest()
             before, crack = y, self._elastic
@@ -186,16 +190,17 @@ class Grown:
 
     def _slowest(self) -> float:
         """Return ln of the first y, where Gamma - 1 is negligible."""
-        y = np.linspace(np.log(1e-30), np.log(1e30), 1201)
-        modes = float(np.dot(self._modes.weights, self._modes.times))
+        y = STEP * np.arange(-120, 121)
+        modes = self._openings.modes
+        delay = float(np.dot(modes.weights, modes.times))
         slow = np.array([self._work(self._elastic, float(np.exp(u))) - 1 for u in y])
-        some = slow + modes * np.exp(y)
+        some = slow + delay * np.exp(y)
         return float(y[int(np.argmax(some > _FIRST))])
 
     def _work(self, crack: Solution, y: float) -> float:
         """Return the interface energy along a crack in scaled units."""
         energy = np.where(crack.gap > 1, self._law.energy(crack.gap), -1.0)
-        opening = y * slopes(self._mesh, crack.gap)
+        opening = y * slopes(self._openings.mesh, crack.gap)
         return 1 + float(np.sum(self._growing.growth(opening) * np.diff(energy)))
 
     def _foreseen(self, crack: Solution, y: float) -> float:
@@ -213,26 +218,29 @@ class Grown:
 
         def system(y: float, crack: Solution) -> System:
             works.append(self._foreseen(crack, y))
-            return self._system(float(np.exp(y)), works[-1])
+            return self._system(y, works[-1])
 
-        found = walked(system, before, crack, aim)
+        guess = None
+        if len(self._cracks) >= _BEHIND.size:
+            last = [known.u for known in self._cracks[-_BEHIND.size :]]
+            guess = _BEHIND @ np.array(last)
+        found = walked(system, before, crack, aim, guess)
         return None if found is None else (found, works[-1])
 
-    def _system(self, y: float, work: float) -> System:
-        weights, times = np.array(self._modes.weights), np.array(self._modes.times)
-        modes = lengths_of(self._mesh, self._modes.instantaneous, weights, y * times)
-        law = self._law._replace(growing=self._growing, speed=y, strength=work)
-        return System(self._mesh, law, opening_matrix(self._mesh, modes))
+    def _system(self, log_y: float, work: float) -> System:
+        law = self._law._replace(growing=self._growing, speed=float(np.exp(log_y)), strength=work)
+        return System(self._openings.mesh, law, self._openings.at(log_y))
 
-    def _curve(self) -> tuple[Array, Array]:
-        """Return ln of speeds and of Gamma - 1, both increasing."""
+    def _curves(self) -> tuple[Array, Array, Array]:
+        """Return ln of speeds and of Gamma - 1, both increasing, and the interface energies."""
         if self._table is None or self._table[0] != len(self._log_y):
             y = np.array(self._log_y)
             fine = np.interp(np.arange(_FINE * (y.size - 1) + 1) / _FINE, np.arange(y.size), y)
             speed = fine - curve(y, np.array(self._log_work))(fine)
             gained = curve(y, np.array(self._log_gained))(fine)
             rising = np.maximum.accumulate(speed), np.maximum.accumulate(gained)
-            self._table = (y.size, *rising)
+            work = np.exp(curve(y, np.log(self._works))(fine))
+            self._table = (y.size, *rising, work)
         return self._table[1:]
 
 

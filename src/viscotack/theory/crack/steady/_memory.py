@@ -27,6 +27,7 @@ import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
+from viscotack.model.materials import Modes
 
 from ._mesh import Mesh
 
@@ -94,6 +95,41 @@ def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
     matrix[np.arange(size), np.arange(size)] += modes.instantaneous
     matrix[:, -1] = far
     return matrix
+
+
+class Openings:
+    """Opening matrices of a solid at speeds, for the cracks of all laws on one mesh.
+
+    Those at multiples of a step of ln of the speed are kept.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh.
+    modes : Modes
+        Modes of the solid.
+    step : float
+        Step of ln of the speed.
+    """
+
+    def __init__(self, mesh: Mesh, modes: Modes, step: float) -> None:
+        self.mesh, self.modes, self._step = mesh, modes, step
+        self._kept: dict[int, Array] = {}
+
+    def at(self, log_speed: float) -> Array:
+        """Return the matrix of :func:`opening_matrix` at ln of a speed."""
+        number = round(log_speed / self._step)
+        if log_speed != number * self._step:
+            return self._computed(log_speed)
+        if number not in self._kept:
+            self._kept[number] = self._computed(log_speed)
+        return self._kept[number]
+
+    def _computed(self, log_speed: float) -> Array:
+        weights, times = np.array(self.modes.weights), np.array(self.modes.times)
+        lengths = float(np.exp(log_speed)) * times
+        modes = lengths_of(self.mesh, self.modes.instantaneous, weights, lengths)
+        return opening_matrix(self.mesh, modes)
 
 
 def closing_matrix(mesh: Mesh, modes: Lengths) -> Array:

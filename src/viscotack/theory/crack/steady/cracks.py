@@ -37,6 +37,7 @@ from viscotack.theory._checks import Number, Values, plain
 
 from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
+from ._memory import Openings
 
 # Half-length of the mesh over the length of the glassy zone.
 _REACH = 3e4
@@ -400,8 +401,12 @@ def _branch_of(law: Traction, modes: Modes, sign: int) -> _branch.Branch:
 @lru_cache(maxsize=64)
 def _grown_of(law: Traction, modes: Modes, growing: Any) -> _grown.Grown:
     start = _kept(_elastic_of, law, modes.instantaneous)
-    grid = _grid_of(law, modes.instantaneous)
-    return _grown.Grown(grid, _start.pinned(law), modes, growing, start)
+    return _grown.Grown(_kept(_openings_of, law, modes), _start.pinned(law), growing, start)
+
+
+@lru_cache(maxsize=4)
+def _openings_of(law: Traction, modes: Modes) -> Openings:
+    return Openings(_grid_of(law, modes.instantaneous), modes, _branch.STEP)
 
 
 def _slow_of(elastic: Solution, grid: _mesh.Mesh) -> float:
