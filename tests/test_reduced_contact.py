@@ -359,7 +359,35 @@ def test_a_pad_in_mujoco_lifts_fast_and_lets_go_slowly():
 
 
 @pytest.mark.outside
-def test_two_balls_in_lammps_pull_as_the_reduction_and_stick_when_slow():
+def test_the_plugin_of_mujoco_pulls_as_the_callback(tmp_path):
+    gripper = example("mujoco_gripper", "mujoco")
+    mujoco, folder = gripper.mujoco, Path(gripper.__file__).parent
+    library = gripper.compiled(folder / "pad_dome.toml")
+    header = reduced_header(reduced_contact(vt.read_case(folder / "pad_dome.toml")))
+    (tmp_path / "contact.h").write_text(header)
+    of_mujoco = Path(mujoco.__file__).parent
+    words = ["cc", "-O2", "-shared", "-fPIC", folder / "mujoco_plugin.c", "-o", "contact.so"]
+    words += [f"-I{tmp_path}", f"-I{of_mujoco / 'include'}", *of_mujoco.glob("libmujoco.*"), "-lm"]
+    subprocess.run(words, cwd=tmp_path, check=True)
+    mujoco.mj_loadPluginLibrary(str(tmp_path / "contact.so"))
+    keys = {"geom1": "pad", "geom2": "load", "count": gripper.DOMES}
+    config = "".join(f'<config key="{key}" value="{value}"/>' for key, value in keys.items())
+    instance = f'<instance name="grip">{config}</instance>'
+    plugin = f'<extension><plugin plugin="viscotack.contact">{instance}</plugin></extension>'
+    scene = gripper.SCENE.format(pad='contype="0" conaffinity="0"')
+    scene = scene.replace("<worldbody>", plugin + "<worldbody>")
+    scene = scene.replace('<joint name="pad"', '<plugin instance="grip"/><joint name="pad"')
+    model = mujoco.MjModel.from_xml_string(scene)
+    data, corners, heights = mujoco.MjData(model), gripper.drive(), []
+    while data.time < corners[0][-1]:
+        data.ctrl[0] = np.interp(data.time, *corners)
+        mujoco.mj_step(model, data)
+        heights.append(data.joint("load").qpos[0])
+    np.testing.assert_allclose(heights[::50], gripper.run(None, library)[1], rtol=0, atol=1e-9)
+
+
+@pytest.mark.outside
+def test_balls_in_lammps_pull_as_the_reduction_and_stick_when_slow():
     spheres = example("lammps_spheres", "lammps")
     library = spheres.compiled()
     depth, force = spheres.pull(library)
@@ -371,3 +399,5 @@ def test_two_balls_in_lammps_pull_as_the_reduction_and_stick_when_slow():
     assert force.min() == pytest.approx(min(ours), rel=0.01)
     stuck, slow, fast = (spheres.bounce(library, speed) for speed in (0.01, 0.1, 1.0))
     assert stuck == 0 and 0.3 < slow < fast < 0.8
+    assert spheres.together(library, 0.01, count=7) == 7
+    assert spheres.together(library, 0.3, count=7) == 1
