@@ -4,7 +4,7 @@ Adhesion of MuJoCo is a number. Here it is a contact with memory, written by `vi
 contact` and called from MuJoCo's passive forces: the same pad holds when it is pulled fast and lets
 go when it is pulled slowly. Needs `pip install mujoco` and a C compiler.
 
-Run it from the folder of this file: ``python mujoco_gripper.py gripper.png``.
+Run it from the folder of this file: ``python mujoco_gripper.py gripper.png gripper.gif``.
 """
 
 import ctypes
@@ -16,6 +16,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import mujoco
 import numpy as np
+from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.patches import Rectangle
 
 import viscotack as vt
 from viscotack.design.control import reduced_contact, reduced_header
@@ -107,14 +109,17 @@ class Adhesion:
 
 
 def run(constant, library):
-    """Simulate with a constant adhesion, or None; return times, heights of the load and forces."""
+    """Simulate with a constant adhesion, or None.
+
+    Returns times [s], heights of the load [m], forces of the drive [N] and heights of the pad [m].
+    """
     # With memory MuJoCo has no contact of its own between pad and load. Its adhesion is that of a
     # corner, of four in contact, and needs a gap in which it pulls.
-    pad = 'contype="0" conaffinity="0"'
+    how = 'contype="0" conaffinity="0"'
     if constant is not None:
-        pad = f'adhesion="{constant / 4}" margin="2e-4" gap="2e-4"'
+        how = f'adhesion="{constant / 4}" margin="2e-4" gap="2e-4"'
     mujoco.set_mjcb_passive(None)
-    model = mujoco.MjModel.from_xml_string(SCENE.format(pad=pad))
+    model = mujoco.MjModel.from_xml_string(SCENE.format(pad=how))
     data = mujoco.MjData(model)
     corners = drive()
     if constant is None:
@@ -124,20 +129,45 @@ def run(constant, library):
         while data.time < corners[0][-1]:
             data.ctrl[0] = np.interp(data.time, *corners)
             mujoco.mj_step(model, data)
-            rows.append((data.time, data.joint("load").qpos[0], data.actuator("drive").force[0]))
+            load, pad = (data.joint(name).qpos[0] for name in ("load", "pad"))
+            rows.append((data.time, load, data.actuator("drive").force[0], pad))
     finally:
         mujoco.set_mjcb_passive(None)
     return np.array(rows)[::50].T
 
 
-def main(picture="gripper.png"):
-    """Lift and let go, and draw it beside constant adhesions."""
+def film(runs, path):
+    """Draw the last 4 mm between pad and load, four times as fast as they move."""
+    figure, axes = plt.subplots(1, len(runs), figsize=(5, 2.2), layout="constrained")
+    moving = []
+    for ax, (label, (time, load, _, pad)) in zip(axes, runs.items(), strict=True):
+        ax.set(xlim=(-12, 12), ylim=(-1, 4), xticks=[], title=label)
+        shapes = [
+            ax.add_patch(Rectangle((-11, -3), 22, 3, color="tab:gray")),
+            ax.add_patch(Rectangle((-5, 0), 10, 9, color="tab:red")),
+        ]
+        moving.append((time, load, pad, shapes))
+    axes[0].set_ylabel("height [mm]")
+
+    def shown(at):
+        for time, load, pad, (below, above) in moving:
+            below.set_y(1e3 * np.interp(at, time, load) - 3)
+            above.set_y(1e3 * (np.interp(at, time, pad) + GAP))
+        figure.supxlabel(f"{at:.1f} s", fontsize="medium")
+
+    frames = np.arange(0.0, drive()[0][-1], 0.5)
+    FuncAnimation(figure, shown, frames=frames).save(path, PillowWriter(fps=8), dpi=64)
+    plt.close(figure)
+
+
+def main(picture="gripper.png", moving="gripper.gif"):
+    """Lift and let go, draw it beside constant adhesions, and make a film."""
     library = compiled(Path(__file__).with_name("pad_dome.toml"))
     figure, axes = plt.subplots(3, 1, sharex=True, figsize=(6, 5.5), layout="constrained")
     axes[0].plot(drive()[0], drive()[1] * 1e3, "k")
-    lifted = {}
+    runs, lifted = {}, {}
     for label, constant in (("with memory", None), ("1.5 N", 1.5), ("3 N", 3.0)):
-        time, height, force = run(constant, library)
+        runs[label] = time, height, force, _ = run(constant, library)
         axes[1].plot(time, height * 1e3, label=label)
         axes[2].plot(time, force, label=label)
         lifted[label] = float(height.max() * 1e3), float(height[-1] * 1e3)
@@ -147,6 +177,7 @@ def main(picture="gripper.png"):
     axes[2].set(xlabel="time [s]", ylabel="force of the drive [N]")
     axes[1].legend()
     figure.savefig(picture, dpi=90)
+    film(runs, moving)
     return lifted
 
 
