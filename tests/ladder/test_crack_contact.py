@@ -147,6 +147,23 @@ def test_after_a_very_long_dwell_the_contact_has_relaxed(hold):
     assert found.status == "detached"
 
 
+def test_after_a_dwell_the_force_is_smooth_in_the_work_of_adhesion():
+    # with the steps of a dwell too long near its end, forces scattered by 10 %
+    press = (vt.Approach(1e-4, to=vt.AtForce(2e-3)), vt.Dwell(10.0, hold="force"))
+
+    def pulled(work):
+        law = vt.LennardJones(work_of_adhesion=work, equilibrium_gap=20e-9)
+        pull = vt.Retraction(start=vt.Apart(60e-9), moves=press, speed=1e-4)
+        solid = replace(standard(), rubbery_modulus=1e6, glassy_modulus=1e7, poisson_ratio=0.5)
+        sphere = vt.Sphere(radius=5e-3)
+        problem = vt.Problem(material=solid, traction=law, geometry=sphere, protocol=pull)
+        return vt.crack_contact(problem).pull_off_force
+
+    force = np.array([pulled(work) for work in (0.057, 0.0585, 0.06, 0.0615)])
+    assert np.max(np.abs(np.diff(force, 2))) < 0.01 * force[0]
+    assert np.all(np.diff(force) < 0)
+
+
 def test_cycles_that_do_not_relax_have_a_bell():
     # Afferrante and Violano: loaded and unloaded at one speed, slow and fast contacts are elastic
     # ones, rubbery and glassy, and JKR's force knows no modulus
