@@ -28,7 +28,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.force_ratios import yielding_near
 from viscotack.identify.forward import Forward, Interface
-from viscotack.identify.pull_off import travels
+from viscotack.identify.pull_off import History, travels
 from viscotack.lab.tack import survey
 from viscotack.model.materials.library import published
 
@@ -54,6 +54,17 @@ def test_forces_of_single_cracks_give_back_the_interface(forces, fit):
     assert fit.equilibrium_gap == pytest.approx(GAP, rel=0.02)
     # (R w^2/E0*^2)^(1/3)/h0
     assert fit.tabor == pytest.approx(20.4, rel=0.02)
+
+
+@pytest.mark.parametrize(("dwell", "relaxed"), [(0.1, False), (1e6, True)])
+def test_a_caution_says_where_approach_and_dwell_change_the_force(fit, dwell, relaxed):
+    # the bulk has long relaxed; the edge still closes
+    assert RUBBER.relaxation(0.1) / RUBBER.rubbery_modulus < 1.001
+    past = History(1e-4, PRELOAD, dwell)
+    tests = [replace(one, history=past) for one in fit.series]
+    series = replace(fit.given, tests=tests, theory=0.003)
+    told = replace(fit, search=replace(fit.search, series=series)).words
+    assert any("--history" in one for one in told) is not relaxed
 
 
 def test_the_effect_of_a_machine_follows_powers_of_work_and_range():
