@@ -130,8 +130,8 @@ def test_what_cannot_be_is_refused(table, make, words):
 
 def test_the_command_writes_all_and_lets_go(tmp_path):
     flags = [x for name, value in SMALL.items() for x in (f"--{name}", str(value))]
-    names = ("contact.h", "speeds.csv", "ticks.csv", "control.png")
-    kinds = ("c", "csv", "ticks", "plot")
+    names = ("contact.h", "speeds.csv", "forces.csv", "ticks.csv", "control.png")
+    kinds = ("c", "csv", "forces", "ticks", "plot")
     for kind, name in zip(kinds, names, strict=True):
         flags += [f"--{kind}", str(tmp_path / name)]
     flags += ["--wanted", "4.8 mN", "--stiffness", "300 N/m", "--json"]
@@ -139,6 +139,13 @@ def test_the_command_writes_all_and_lets_go(tmp_path):
     assert done.exit_code == 0, done.output
     release = json.loads(done.stdout)["release"]
     assert release["pull_off_force_N"] == pytest.approx(4.8e-3, rel=0.03)
+    speeds, forces = (
+        np.genfromtxt(tmp_path / name, delimiter=",", names=True)
+        for name in ("speeds.csv", "forces.csv")
+    )
+    grid = forces["force_N"].reshape(speeds.size, -1)
+    np.testing.assert_allclose(-grid.min(axis=1), speeds["pull_off_force_N"], rtol=1e-3)
+    assert np.all(grid[:, 0] > 0) and np.all(grid[np.argmax(speeds["travel_to_end_m"]), -1] == 0)
     sizes = {name: (tmp_path / name).stat().st_size for name in names}
     assert min(sizes.values()) > 200 and sizes["control.png"] > 10_000
 

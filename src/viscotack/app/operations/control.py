@@ -3,6 +3,8 @@
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 # Part of the progress that the table takes, where a release follows.
 _TABLE = 0.7
+# Depths of a written grid of forces.
+_DEPTHS = 201
 
 
 class Control(Request):
@@ -41,6 +45,7 @@ class Control(Request):
             ".fmu",
         ),
         csv_file("Write a row for each speed: pull-off force and travels."),
+        csv_file("Write the force at each speed and 201 even depths, for lookup tables.", "forces"),
         csv_file("Write a row for each tick of the release.", "ticks"),
         picture("Draw forces by depth and the release."),
     )
@@ -103,6 +108,7 @@ class Control(Request):
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
             "fmu": lambda to: write_whole(to, fmu(table, self.name)),
             "csv": rows_as_csv(_rows(table)),
+            "forces": lambda to: rows_as_csv(_forces(table))(to),
         }
         if released is not None:
             names = ("time_s", "drive_m", "depth_m", "force_N", "drive_speed_m_per_s")
@@ -123,6 +129,16 @@ def _rows(table: "ForceTable") -> list[dict[str, float]]:
     return rows_of(
         {"speed_m_per_s": table.speed, "pull_off_force_N": table.pull_off_force} | travels
     )
+
+
+def _forces(table: "ForceTable") -> list[dict[str, float]]:
+    """Return a row for each speed and depth of a rectangular grid, the deepest first."""
+    depths = table.start_depth - np.linspace(0.0, float(table.travel.max()), _DEPTHS)
+    return [
+        {"speed_m_per_s": speed, "depth_m": depth, "force_N": table.force_at(depth, speed)}
+        for speed in table.speed.tolist()
+        for depth in depths.tolist()
+    ]
 
 
 def _record(
