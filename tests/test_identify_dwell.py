@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -164,6 +165,7 @@ def edge_fit(tests):
     return identify_edge(RateSeries(tests, material=SOLID, **case))
 
 
+CASE = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
 EDGE = {"radius": 5e-3, "contact_modulus": 2e6, "preload": 2e-3}
 EDGE |= {"reference_speed": 5e-5, "exponent": 0.4}
 SOLID = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
@@ -189,7 +191,7 @@ def test_speeds_and_dwells_together_give_edge_law_and_growth_in_time(growth):
 
 
 @pytest.mark.slow
-def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_dwell():
+def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_dwell(monkeypatch):
     speeds, times = (x.ravel() for x in np.meshgrid([1e-6, 3e-5, 1e-3], DWELLS, indexing="ij"))
 
     def pulled(speeds, times):
@@ -212,6 +214,12 @@ def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_d
     later = forecast_rates(fit, speed, dwell=1e4, approach_speed=1e-4)
     assert later.contact_time == pytest.approx([1e4], rel=1e-3)
     assert holds(later, pulled(speed, [1e4])) and later.low > pulled(speed, [300.0])
+    monkeypatch.setattr(
+        "viscotack.app.operations.uncertainty.fitted", lambda *_: SimpleNamespace(fit=fit)
+    )
+    known = {"study": "known.toml", "samples": 6}
+    told = ask("uncertainty", problem=str(CASE), **known).notes
+    assert any("100 s" in note for note in told)
 
 
 def test_where_the_dwell_goes_with_the_speed_their_effects_are_not_separate():

@@ -98,7 +98,7 @@ class OfUncertainty(Request):
         deviations = dict(self.scatter)
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
-        problem, sampled, times = self._known(caller)
+        problem, sampled, times, notes = self._known(caller)
         found = uncertainty(
             problem,
             deviations,
@@ -125,12 +125,16 @@ class OfUncertainty(Request):
             words=lambda: _shown(found, rows, force.words, unit),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_uncertainty(found)},
+            notes=notes,
         )
 
-    def _known(self, caller: Caller) -> tuple[Any, dict[str, Any], dict[str, float]]:
-        """Return the problem, sampled parts, and the deviations of ln of the material's times."""
+    def _known(
+        self, caller: Caller
+    ) -> tuple[Any, dict[str, Any], dict[str, float], tuple[str, ...]]:
+        """Return problem, sampled parts, deviations of ln of the material's times, and notes."""
         stated = self.stated(caller)
         problem: Any = stated.problem
+        notes = stated.improbable
         sampled: dict[str, Any] = {}
         times: dict[str, float] = {}
         given = [name for name in ("passport", "study") if getattr(self, name) is not None]
@@ -158,7 +162,10 @@ class OfUncertainty(Request):
             law = law_of(fit.work_of_adhesion, fit.equilibrium_gap, growth)
             problem = replace(problem, traction=law)
             sampled["traction"] = interfaces(fit, _INTERFACES, seed=self.seed)
-        return problem, sampled, times
+            if fit.ageing is not None:
+                time = readable(fit.given.middle_time, "s", digits=2)
+                notes += (f"the interface is that after {time} in contact, whatever the dwell",)
+        return problem, sampled, times, notes
 
 
 # Number of interfaces sampled from a study.
