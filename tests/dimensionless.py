@@ -2,25 +2,18 @@
 
 import numpy as np
 
+from solids import creep_power_law, standard_solid
 from viscotack.model.geometry import FlatPunch, Layer
-from viscotack.model.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import Elastic
 from viscotack.model.problem import Groups
 
 
 def standard(modulus_ratio=0.1):
-    return StandardSolid(
-        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
-    )
+    return standard_solid(1.0, 1 / modulus_ratio, 1.0, 0.0)
 
 
 def power_law(modulus_ratio=0.1, exponent=0.6):
-    return RetardationPowerLaw(
-        rubbery_modulus=1.0,
-        glassy_modulus=1 / modulus_ratio,
-        exponent=exponent,
-        tau0=1.0,
-        poisson_ratio=0.0,
-    )
+    return creep_power_law(1.0, 1 / modulus_ratio, exponent, 1.0, 0.0)
 
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)

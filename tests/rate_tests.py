@@ -29,7 +29,6 @@ def measured(forces, relative, speeds=SPEEDS, **more):
 
 
 def fitted(forces, relative, speeds=SPEEDS, **more):
-    """Return the fit of pull-off forces."""
     case = {"material": RUBBER, "radius": RADIUS, "preload": PRELOAD} | more
     return identify_rates(RateSeries(measured(forces, relative, speeds), **case))
 

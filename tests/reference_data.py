@@ -6,10 +6,8 @@ from pathlib import Path
 import pytest
 
 DATA = Path(__file__).parent / "data"
-# dynamic and relaxation tests of a laboratory, and a sample of the detachments that the authors of
-# the thesis computed
+# dynamic and relaxation tests of a laboratory
 DMA = DATA / "dma_published"
-DETACHMENTS = DATA / "sphere_bem_published/rows.csv"
 # verified values of numbered equations: equation, inputs, value, note
 VALUES = json.loads((DATA / "reference.json").read_text(encoding="utf-8"))["values"]
 

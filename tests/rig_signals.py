@@ -19,17 +19,15 @@ WRONG = 5.0  # stated uncertainties
 
 @dataclass(frozen=True)
 class Pure:
-    """A test without faults: time, depth and force, first indices of its parts, and its truth."""
+    """A test without faults: time, depth and force, and its truth."""
 
     time: np.ndarray
     depth: np.ndarray
     force: np.ndarray
-    parts: tuple[int, int, int, int]  # contact, dwell, retraction, detachment
     truth: tuple[float, ...]
 
     @property
     def range(self):
-        """Range of forces."""
         return float(np.ptp(self.force))
 
 
@@ -84,12 +82,6 @@ def pure(rng):
         np.cumsum(np.concatenate(clocks)),
         np.concatenate([approach, np.full(hold, deep), retraction]),
         np.concatenate([pressed, held, back]),
-        (
-            int(np.argmax(approach > 0)),
-            down,
-            down + hold,
-            down + hold + int(np.argmax(retraction < leaves)),
-        ),
         (pull_off, work_done, deep),
     )
 

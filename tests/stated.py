@@ -49,6 +49,28 @@ preload_force = "1.5 mN"
 speed = "100 um/s"
 """
 
+# a pad of 2 mm on a bonded layer
+PAD = """
+[material]
+model = "sls"
+rubbery_modulus = "1.5 MPa"
+glassy_modulus = "15 MPa"
+tau0 = "100 ms"
+poisson_ratio = 0.4
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "1.5 um"
+[punch]
+half_width = "1 mm"
+[layer]
+thickness = "50 um"
+base = "bonded"
+[protocol]
+preload_stress = "2 kPa"
+speed = "100 um/s"
+"""
+
 
 def case_text(material=ELASTIC, *, radius="1 mm", protocol=PRESSED, shape=None, law=LAW):
     """Return the text of a case file; its last table is that of the protocol."""

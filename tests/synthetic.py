@@ -16,12 +16,10 @@ TABOR, RATE = 3.24, 7.0
 DISPLACEMENT = TABOR * np.pi ** (2 / 3)
 
 SI = Problem(
-    material=StandardSolid(
-        rubbery_modulus=1.458e6, glassy_modulus=14.58e6, tau0=0.02, poisson_ratio=0.5
-    ),
-    traction=LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
-    geometry=Sphere(radius=5.19e-3),
-    protocol=Retraction(start=AtForce(force=1.5e-3), speed=100e-6),
+    StandardSolid(rubbery_modulus=1.458e6, glassy_modulus=14.58e6, tau0=0.02, poisson_ratio=0.5),
+    LennardJones(0.1523, 1.55e-6),
+    Sphere(5.19e-3),
+    Retraction(AtForce(1.5e-3), 100e-6),
 )
 GROUPS = Groups(tabor=TABOR, material=SI.material.reduced(), start=AtDepth(20), rate=RATE)
 
@@ -66,7 +64,7 @@ def jkr_result(*, start=2.3, end=0.6, steps=200, shift=0.5, **changes):
     return Result(**(parts | changes))
 
 
-def jkr_detachment(*, steps=200, far=40.0, until_jump=False, **changes):
+def jkr_detachment(*, steps=200, far=40.0, **changes):
     """Return a JKR retraction to the instability, a jump there, and the far attraction after it.
 
     Beyond the jump the force is that of undeformed surfaces a gap d = 1 - depth apart,

@@ -64,8 +64,7 @@ def text(headings, columns, above=(), separator=",", decimal=".", units=None, en
 
 def plain(test):
     return text(
-        ["Time [s]", "Depth [um]", "Force [mN]"],
-        [test.time, 1e6 * test.drive, 1e3 * test.force],
+        ["Time [s]", "Depth [um]", "Force [mN]"], [test.time, 1e6 * test.drive, 1e3 * test.force]
     )
 
 

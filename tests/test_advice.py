@@ -8,31 +8,20 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from solids import creep_power_law
 from viscotack.model.traction import effective_range
 from viscotack.theory import tabulated_modulus
 
 
 def groups(rate, *, tabor=3.24, modulus_ratio=0.1, exponent=0.8, start=None):
-    material = vt.RetardationPowerLaw(
-        rubbery_modulus=1.0,
-        glassy_modulus=1 / modulus_ratio,
-        exponent=exponent,
-        tau0=1.0,
-        poisson_ratio=0.0,
-    )
+    material = creep_power_law(1.0, 1 / modulus_ratio, exponent, 1.0, 0.0)
     return vt.Groups(tabor=tabor, material=material, start=start or vt.AtDepth(73.0), rate=rate)
 
 
 def silicone(speed):
     """The silicone and the lens of the thesis (section 4.6)."""
     return vt.Problem(
-        material=vt.RetardationPowerLaw(
-            rubbery_modulus=1.458e6,
-            glassy_modulus=3089e6,
-            exponent=0.2207,
-            tau0=0.01876,
-            poisson_ratio=0.5,
-        ),
+        material=creep_power_law(1.458e6, 3089e6, 0.2207, 0.01876, 0.5),
         traction=vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
         geometry=vt.Sphere(radius=5.19e-3),
         protocol=vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=speed),
@@ -60,13 +49,7 @@ def test_the_regime_follows_the_rate(rate, regime, use):
 
 @pytest.mark.parametrize(
     ("rate", "tabor", "exponent"),
-    [
-        (1e-3, 3.24, 0.8),
-        (10.0, 3.24, 1.6),
-        (1.0, 1.0, 0.8),
-        (1e3, 3.24, 0.8),
-        (1e6, 5.0, 1.6),
-    ],
+    [(1e-3, 3.24, 0.8), (1.0, 1.0, 0.8), (1e6, 5.0, 1.6)],
 )
 def test_what_is_said_to_apply_is_as_good_as_it_is_said_to_be(rate, tabor, exponent):
     case = groups(rate, tabor=tabor, exponent=exponent)
@@ -78,9 +61,8 @@ def test_what_is_said_to_apply_is_as_good_as_it_is_said_to_be(rate, tabor, expon
             assert e.pull_off_force == pytest.approx(force, rel=e.error + 5e-3, abs=0), e.tier
 
 
-@pytest.mark.parametrize("rate", [1.0, 1e3])
-def test_the_speed_of_the_edge_is_that_of_a_simulation(rate):
-    case = groups(rate).in_si(
+def test_the_speed_of_the_edge_is_that_of_a_simulation():
+    case = groups(1e3).in_si(
         radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15, time_unit=0.1, poisson_ratio=0.5
     )
     result = vt.solve(case, accuracy=5e-3, until="pull-off", estimate_error=False)
@@ -107,7 +89,6 @@ def test_adhesion_regime_follows_the_tabor_number():
     [
         (100.0, 0.8, 1.5, "raises"),
         (100.0, 0.8, 2.4, "lowers"),
-        (1e4, 1.6, 2.2, "raises"),
         (1e4, 1.6, 6.0, "same"),
     ],
 )
@@ -140,8 +121,6 @@ LAWS = {
     ("law", "effective_tabor", "rate"),
     [
         ("exponential 0.25", 0.3, 0.01),
-        ("exponential 0.25", 5.0, 1.0),
-        ("exponential 1", 1.5, 1.0),
         ("exponential 1", 5.0, 1e4),
         ("dugdale", 0.3, 0.01),
         ("table", 1.5, 1.0),
@@ -178,8 +157,6 @@ def test_in_si_speed_and_strain_are_judged():
 
 
 # The command line -----------------------------------------------------------------------------
-
-
 MODULUS = "frequency_Hz,storage_MPa,loss_kPa\n0.1,1.01,30\n1,1.1,200\n10,2,900\n100,4,3000\n"
 
 

@@ -12,12 +12,9 @@ from typer.testing import CliRunner
 import viscotack as vt
 from picture_units import in_si
 from viscotack.app.cli import application
-from viscotack.app.operations import ask
 from viscotack.design import read_array
 from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array
 from viscotack.design.holding import held_load
-from viscotack.errors import InputError
-from viscotack.model.traction import GentSchultz
 from viscotack.plot.array import draw_array
 from viscotack.theory import jkr
 
@@ -54,7 +51,7 @@ def test_the_yield_is_the_share_of_drawn_arrays_that_hold_the_mass(small, mass, 
     drawn = 'heights = ["0 um", "-1 um", "1 um"]\nwork_scatter = 0.05\ndraws = 20\nseed = 1'
     text = SMALL.replace('heights = ["0 um", "-1 um", "1 um"]', drawn)
     small.write_text(text.replace('mass = "0.3 g"', f'mass = "{mass}"'))
-    record = ask("array", file="small.toml").record()
+    record = vt.ask("array", file="small.toml").record()
     assert (record["holds"], record["yield"]) == (holds, share)
 
 
@@ -74,7 +71,7 @@ def test_the_yield_is_the_share_of_drawn_arrays_that_hold_the_mass(small, mass, 
 )
 def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
     small.write_text(SMALL.replace(old, new))
-    with pytest.raises(InputError, match=field):
+    with pytest.raises(vt.InputError, match=field):
         read_array(small)
 
 
@@ -93,7 +90,7 @@ def test_the_command_writes_tables_and_a_picture(small):
 
 def test_a_pad_without_contact_is_drawn_and_counted(small):
     small.write_text(SMALL.replace('"-1 um"', '"-1 mm"'))
-    answer = ask("array", file="small.toml")
+    answer = vt.ask("array", file="small.toml")
     axes = draw_array(read_array(small).array, answer.found).axes
     # force positive in compression
     (line,) = (line for line in axes[0].lines if len(line.get_xdata()) > 2)
@@ -139,7 +136,7 @@ def test_a_weight_above_the_pull_off_force_is_held_up_to_the_instantaneous_stren
     assert time(0.95 * strength) > 0 and time(1.1 * strength) == 0
     # elastic pads under a growing interface creep above their force at rest
     elastic = vt.Elastic(rubbery_modulus=2e6, poisson_ratio=0.5)
-    growing = GentSchultz(w, 1e-7, reference_speed=1e-6, exponent=0.4)
+    growing = vt.GentSchultz(w, 1e-7, reference_speed=1e-6, exponent=0.4)
     array = replace(array, pad=replace(pad, material=elastic, traction=growing))
     assert time(1e-3, array) == inf
     assert isnan(time(2e-3, array))

@@ -36,10 +36,7 @@ def workbook(path, rows, dimension=""):
     return load(path)
 
 
-BOMBS = {
-    "a wide row": cell("XFD1"),
-    "many rows times many columns": cell("SF1") + cell("A150000"),
-}
+BOMBS = {"a wide row": cell("XFD1"), "many rows times many columns": cell("SF1") + cell("A150000")}
 
 
 @pytest.mark.parametrize("name", BOMBS)

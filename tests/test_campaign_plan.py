@@ -1,24 +1,14 @@
 import numpy as np
 import pytest
 
-from viscotack import (
-    AtForce,
-    Bonded,
-    FlatPunch,
-    Layer,
-    LennardJones,
-    Problem,
-    Retraction,
-    StandardSolid,
-    read_case,
-)
+import stated
+import viscotack as vt
 from viscotack.app.operations.options import Contact
 from viscotack.app.operations.request import Caller
 from viscotack.app.operations.statement import statement
 from viscotack.campaign import CaseSettings, read_plan, space_filling
 from viscotack.campaign.design import grid
 from viscotack.model.problem.kinds import KINDS
-from viscotack.model.problem.record import run_id
 from viscotack.simulate import has_start
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
@@ -52,9 +42,8 @@ def test_a_row_of_a_csv_file_is_the_problem_that_the_flags_state(tmp_path):
     plan = read_plan(path)
     (case,) = plan.cases
     assert case.inputs == INPUTS
-    assert case.name == run_id(
-        statement({"indenter": "sphere", **INPUTS}, Contact(""), Caller()).problem
-    )
+    stated_by_flags = statement({"indenter": "sphere", **INPUTS}, Contact(""), Caller())
+    assert case.name == vt.run_id(stated_by_flags.problem)
     assert plan.settings == CaseSettings()
 
 
@@ -81,11 +70,7 @@ def test_a_plan_has_an_end(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("start", "exists"),
-    [
-        ({"preload": -20.0}, False),
-        ({"preload_radius": 2.0}, True),
-    ],
+    ("start", "exists"), [({"preload": -20.0}, False), ({"preload_radius": 2.0}, True)]
 )
 def test_a_relaxed_contact_is_looked_for(start, exists):
     inputs = {k: v for k, v in INPUTS.items() if k != "preload"} | start
@@ -123,35 +108,15 @@ def test_a_wrong_plan_is_refused_with_its_place(tmp_path, name, text, place):
     assert str(caught.value).startswith(str(path))
 
 
-RUBBER = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.02, poisson_ratio=0.45)
-LAW = LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
-PAD = Problem(
+RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.4)
+LAW = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
+PAD = vt.Problem(
     material=RUBBER,
     traction=LAW,
-    geometry=FlatPunch(half_width=1e-3),
-    body=Layer(thickness=5e-5, base=Bonded(poisson_ratio=0.45)),
-    protocol=Retraction(start=AtForce(2e3), speed=1e-4),
+    geometry=vt.FlatPunch(half_width=1e-3),
+    body=vt.Layer(thickness=5e-5, base=vt.Bonded(poisson_ratio=0.4)),
+    protocol=vt.Retraction(start=vt.AtForce(2e3), speed=1e-4),
 )
-PAD_FILE = """
-[material]
-model = "sls"
-rubbery_modulus = "1.5 MPa"
-glassy_modulus = "15 MPa"
-tau0 = "20 ms"
-poisson_ratio = 0.45
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.15 J/m^2"
-equilibrium_gap = "1.5 um"
-[punch]
-half_width = "1 mm"
-[layer]
-thickness = "50 um"
-base = "bonded"
-[protocol]
-preload_stress = "2 kPa"
-speed = "100 um/s"
-"""
 OVER_PAD = {
     "punch.half_width": {"log": ["0.1 mm", "10 mm"]},
     "layer.thickness": {"log": ["10 um", 1e-4]},
@@ -183,12 +148,12 @@ def test_a_fill_over_a_punch_and_its_layer_has_units_and_covers_them_evenly():
 
 
 def test_a_file_and_python_state_the_same_cases(tmp_path):
-    (tmp_path / "pad.toml").write_text(PAD_FILE)
+    (tmp_path / "pad.toml").write_text(stated.PAD)
     lines = [f"{path} = {str(given).replace(':', ' =')}" for path, given in OVER_PAD.items()]
     text = "\n".join(lines).replace("'log'", "log").replace("'linear'", "linear")
     text = f'problem = "pad.toml"\n[[fill]]\ncases = 20\n{text}\n'
     (tmp_path / "plan.toml").write_text(text)
-    assert read_case(tmp_path / "pad.toml") == PAD
+    assert vt.read_case(tmp_path / "pad.toml") == PAD
     ours = space_filling(PAD, OVER_PAD, cases=20)
     assert read_plan(tmp_path / "plan.toml").cases == ours.cases and len(ours.cases) == 20
     assert ours.base == read_plan(tmp_path / "plan.toml").base
@@ -196,7 +161,7 @@ def test_a_file_and_python_state_the_same_cases(tmp_path):
 
 def test_a_list_is_a_table_of_the_problem(tmp_path):
     """Headings and cells are those of a sweep, from a file as a spreadsheet writes it."""
-    (tmp_path / "pad.toml").write_text(PAD_FILE)
+    (tmp_path / "pad.toml").write_text(stated.PAD)
     path = written(tmp_path, 'problem = "pad.toml"\n[[list]]\nfile = "a list.csv"\n')
     text = "half_width [mm];Thickness;protocol.speed\n1,5;50 um;1e-4\n;;\n2;0.1 mm;2e-4\n"
     (tmp_path / "a list.csv").write_text(text, encoding="utf-8-sig")

@@ -7,12 +7,7 @@ import pytest
 from stated import LENS, case_text
 from viscotack.errors import InputError
 from viscotack.model.geometry import Sphere
-from viscotack.model.materials import (
-    Prony,
-    RelaxationPowerLaw,
-    RetardationPowerLaw,
-    StandardSolid,
-)
+from viscotack.model.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.model.problem import Problem
 from viscotack.model.problem.case_file import case_of_tables, read_case
 from viscotack.model.problem.prony_file import read_prony

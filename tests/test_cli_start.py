@@ -33,12 +33,7 @@ def loaded(arguments, modules):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "modules"),
-    [
-        ("--help", LISTED),
-        ("predict --help", HELPED),
-        (PREDICT, PREDICTED),
-    ],
+    ("arguments", "modules"), [("--help", LISTED), ("predict --help", HELPED), (PREDICT, PREDICTED)]
 )
 def test_a_command_imports_nothing_that_it_does_not_need(arguments, modules):
     assert loaded(arguments, modules) == "[]"

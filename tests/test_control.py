@@ -14,22 +14,12 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.design.control import (
-    Release,
-    c_header,
-    fmu,
-    force_table,
-    let_go,
-)
-from viscotack.errors import InputError, OutOfRange
 
 PAD = vt.Problem(
-    material=vt.StandardSolid(
-        rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-    ),
-    traction=vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1e-6),
-    geometry=vt.Sphere(radius=2e-3),
-    protocol=vt.Retraction(start=vt.AtForce(force=1e-3), speed=1e-4),
+    vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5),
+    vt.LennardJones(0.15, 1e-6),
+    vt.Sphere(2e-3),
+    vt.Retraction(vt.AtForce(1e-3), 1e-4),
 )
 COARSE = {"tolerance": 0.05, "accuracy": 0.01}
 LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
@@ -38,7 +28,7 @@ SMALL = {"slowest": "100 um/s", "fastest": "200 um/s", "tolerance": 0.2, "accura
 
 @pytest.fixture(scope="module")
 def table():
-    return force_table(PAD, 2e-5, 2e-4, **COARSE)
+    return vt.control.force_table(PAD, 2e-5, 2e-4, **COARSE)
 
 
 def at(speed, **more):
@@ -80,14 +70,14 @@ def test_the_speed_for_a_force_has_this_force(table):
     low, high = table.pull_off_force.min(), table.pull_off_force.max()
     for wanted in np.linspace(low, high, 7):
         assert table.pull_off_force_at(table.speed_for(wanted)) == pytest.approx(wanted, rel=1e-9)
-    with pytest.raises(OutOfRange):
+    with pytest.raises(vt.OutOfRange):
         table.speed_for(2 * high)
 
 
 def test_the_controller_lets_go_at_the_wanted_force_where_a_constant_drive_misses(table):
     wanted, spring = 5e-3, 150.0
-    release = Release(table, wanted, spring, 1e-3)
-    found = let_go(PAD, release, accuracy=0.01)
+    release = vt.control.Release(table, wanted, spring, 1e-3)
+    found = vt.control.let_go(PAD, release, accuracy=0.01)
     assert abs(found.miss) < 0.02 + table.error
     how = {"accuracy": 0.01, "until": "pull-off", "estimate_error": False}
     open_loop = vt.solve(at(release.speed, stiffness=spring), **how)
@@ -100,7 +90,7 @@ def test_the_controller_lets_go_at_the_wanted_force_where_a_constant_drive_misse
 
 
 def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
-    release = Release(table, 4e-3, 100.0, 1e-3, fastest=1.0)
+    release = vt.control.Release(table, 4e-3, 100.0, 1e-3, fastest=1.0)
     release.drive_speed(0.0, -4e-3)
     assert not release.past
     assert release.drive_speed(-1e-6, -3.9e-3) == -release.speed and release.past
@@ -117,14 +107,14 @@ PUNCH = replace(
 @pytest.mark.parametrize(
     "make, words",
     [
-        (lambda t: force_table(PUNCH, 1e-5, 1e-4), "mean stress"),
-        (lambda t: force_table(at(1e-4, stiffness=9.0), 1e-5, 1e-4), "controller"),
-        (lambda t: force_table(PAD, 1e-4, 1e-5), "slowest"),
-        (lambda t: Release(t, 4e-3, 0.0, 1e-3), "stiffness"),
+        (lambda t: vt.control.force_table(PUNCH, 1e-5, 1e-4), "mean stress"),
+        (lambda t: vt.control.force_table(at(1e-4, stiffness=9.0), 1e-5, 1e-4), "controller"),
+        (lambda t: vt.control.force_table(PAD, 1e-4, 1e-5), "slowest"),
+        (lambda t: vt.control.Release(t, 4e-3, 0.0, 1e-3), "stiffness"),
     ],
 )
 def test_what_cannot_be_is_refused(table, make, words):
-    with pytest.raises(InputError, match=words):
+    with pytest.raises(vt.InputError, match=words):
         make(table)
 
 
@@ -151,8 +141,6 @@ def test_the_command_writes_all_and_lets_go(tmp_path):
 
 
 # Other readers of the table: a C compiler, a tool for FMUs
-
-
 def points(table):
     """Draw depths and speeds, some outside the table, and what the table says there."""
     rng = np.random.default_rng(5)
@@ -177,7 +165,7 @@ def same(found, table_says):
 def test_a_program_in_c_reads_the_same_digits_and_controls_alike(table, tmp_path):
     asked, said = points(table)
     np.savetxt(tmp_path / "in.txt", asked, fmt="%.17g")
-    (tmp_path / "contact.h").write_text(c_header(table))
+    (tmp_path / "contact.h").write_text(vt.control.c_header(table))
     (tmp_path / "main.c").write_text(
         """#include "contact.h"
         #include <stdio.h>
@@ -201,7 +189,7 @@ def test_a_program_in_c_reads_the_same_digits_and_controls_alike(table, tmp_path
     assert done.returncode == 0
     found = np.array([line.split() for line in done.stdout.decode().splitlines()], float)
     same(found[:, :3], said)
-    release = Release(table, 4e-3, 250.0, 1e-3, 1e-2)
+    release = vt.control.Release(table, 4e-3, 250.0, 1e-3, 1e-2)
     pulled = np.where(np.arange(len(asked)) < 200, 1.0, -40.0) * asked[:, 1]
     ours = np.array([release.drive_speed(*x) for x in zip(asked[:, 0], pulled, strict=True)])
     np.testing.assert_allclose(found[:, 3], ours, rtol=1e-9)
@@ -210,7 +198,7 @@ def test_a_program_in_c_reads_the_same_digits_and_controls_alike(table, tmp_path
 @pytest.mark.outside
 def test_an_fmu_answers_the_same_digits(table, tmp_path):
     asked, said = points(table)
-    with zipfile.ZipFile(_written(tmp_path, fmu(table))) as archive:
+    with zipfile.ZipFile(_written(tmp_path, vt.control.fmu(table))) as archive:
         archive.extractall(tmp_path)
     library = ctypes.CDLL(str(next(tmp_path.glob("binaries/*/contact.*"))))
     make = library.fmi3InstantiateCoSimulation

@@ -3,7 +3,6 @@ import pytest
 
 import synthetic
 import viscotack as vt
-from viscotack import Apart, Approach, AtDepth, Elastic, Groups, Retract, pull_off, pull_off_force
 from viscotack.campaign import CaseSettings, measure
 from viscotack.result.curve import KEY_SHARES, curve
 
@@ -18,7 +17,7 @@ def exact_force(depth):
 
 def test_key_points_and_trajectory_lie_on_the_curve():
     result = synthetic.jkr_result(steps=400, end=0.7)
-    row = curve(result, pull_off(result))
+    row = curve(result, vt.pull_off(result))
     start, travel = result.depth[0], row["travel_to_pull_off"]
     assert travel == pytest.approx(start - synthetic.PULL_OFF_DEPTH, rel=1e-4)
     assert KEY_SHARES == {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
@@ -30,7 +29,7 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     assert len(depth) == 24 and depth[0] == start and force[0] == result.force[0]
     assert force == pytest.approx(exact_force(depth), abs=1e-3)
     assert synthetic.jkr_depth(radius) == pytest.approx(depth, rel=1e-3, abs=1e-2)
-    assert force[-1] == -pull_off_force(result) == force.min()
+    assert force[-1] == -vt.pull_off_force(result) == force.min()
     assert np.diff(depth[:9], 2).min() > 0 and np.diff(depth[8:], 2).min() > 0, "ends are gathered"
     assert force[8] == pytest.approx(0, abs=1e-12) and np.all(force[:8] > 0), "tension has 16"
 
@@ -38,12 +37,12 @@ def test_key_points_and_trajectory_lie_on_the_curve():
 @pytest.mark.parametrize("deeper_first", [True, False])
 def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
     depths = (4.0, 2.0) if deeper_first else (2.0, 4.0)
-    first, last = (Approach(20.0, AtDepth(depth)) for depth in depths)
-    groups = Groups(
+    first, last = (vt.Approach(20.0, vt.AtDepth(depth)) for depth in depths)
+    groups = vt.Groups(
         tabor=0.5,
-        material=Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
-        start=Apart(15.0),
-        moves=(first, Retract(1.0, AtDepth(-14.0)), last),
+        material=vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
+        start=vt.Apart(15.0),
+        moves=(first, vt.Retract(1.0, vt.AtDepth(-14.0)), last),
         rate=1.0,
     )
     row = measure(groups, QUICK)
@@ -54,10 +53,10 @@ def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
 
 def test_the_curve_of_a_problem_in_si_has_each_column_in_si_too():
     lens = vt.Problem(
-        material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+        material=vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
         traction=vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=2e-6),
         geometry=vt.Sphere(1e-3),
-        protocol=vt.Retraction(start=AtDepth(2e-6), speed=1e-5),
+        protocol=vt.Retraction(start=vt.AtDepth(2e-6), speed=1e-5),
     )
     row, scales = measure(lens, QUICK), lens.scales()
     names = [name for name in row if name.startswith(("travel", "force_at", "trajectory"))]

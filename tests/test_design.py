@@ -1,23 +1,21 @@
 """Tests of designs: search, forces, margins, limits, targets, conditions, yield and front."""
 
+import csv
 from dataclasses import replace
 from math import exp, inf, log, pi
+from pathlib import Path
 from statistics import NormalDist
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import viscotack as vt
-from viscotack.design import (
-    Bounds,
-    Candidate,
-    Choice,
-    Conditions,
-    DesignSpace,
-    Targets,
-    find_design,
-    read_design,
-)
+from picture_units import in_si
+from solids import creep_power_law
+from viscotack.app.cli import application
+from viscotack.app.operations import ask
+from viscotack.design import Bounds, Candidate, Choice, Conditions, read_design
 from viscotack.design.arrays import grid
 from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Force, Pad
@@ -26,20 +24,20 @@ from viscotack.design.limits import solid_limits
 from viscotack.design.margins import Judge
 from viscotack.design.searching import nondominated
 from viscotack.design.slopes import allowances, share_of
+from viscotack.errors import InputError
+from viscotack.plot.design import draw_design
 from viscotack.theory import lennard_jones
 
-RUBBER = vt.RetardationPowerLaw(
-    rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.6, tau0=0.1, poisson_ratio=0.5
-)
+RUBBER = creep_power_law(1.5e6, 15e6, 0.6, 0.1, 0.5)
 LAW = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-7)
-SPACE = DesignSpace(
+SPACE = vt.DesignSpace(
     Bounds(1e-3, 4e-3),
     Bounds(4e-3),
     hold_speed=Bounds(1e-4, 1e-3),
     release_speed=Bounds(1e-6, 1e-5),
     pads=Bounds(2),
 )
-TARGETS = Targets(hold=5e-3, release=2.5e-3)
+TARGETS = vt.Targets(hold=5e-3, release=2.5e-3)
 SHORT = replace(LAW, equilibrium_gap=5e-8)
 CHOICE = Choice("rubber", 1e-3, 4e-3, 2, 1e-3, 1e-6)
 HOW = {"confirm": 0, "seed": 3}
@@ -52,7 +50,7 @@ def fast():
 
 @pytest.fixture(scope="module")
 def found():
-    return find_design({"rubber": RUBBER}, LAW, SPACE, TARGETS, **HOW)
+    return vt.find_design({"rubber": RUBBER}, LAW, SPACE, TARGETS, **HOW)
 
 
 @pytest.fixture(scope="module")
@@ -81,12 +79,7 @@ def test_the_search_finds_the_margin_of_a_fine_grid(fast, found):
 
 
 def test_hold_and_release_bind_together_with_both_speeds(found):
-    assert set(found.binding) == {
-        "hold",
-        "release",
-        "hold_speed at most",
-        "release_speed at least",
-    }
+    assert set(found.binding) == {"hold", "release", "hold_speed at most", "release_speed at least"}
     margins = found.best.margins
     assert margins["hold"] == pytest.approx(margins["release"], abs=5e-3)
 
@@ -132,14 +125,14 @@ def test_the_solid_bounds_forces_and_their_ratio(fast):
 @pytest.mark.parametrize(
     "targets, target, cause, reach",
     [
-        (Targets(release=1e-4), "release", "solid", (4.7e-4, 6.3e-4)),
+        (vt.Targets(release=1e-4), "release", "solid", (4.7e-4, 6.3e-4)),
         # below 1/k, but beyond what the speeds between the bounds reach
-        (Targets(hold=12e-3, release=2e-3), "ratio", "speeds", (2, 6)),
+        (vt.Targets(hold=12e-3, release=2e-3), "ratio", "speeds", (2, 6)),
     ],
 )
 def test_targets_out_of_reach_are_refused_with_the_bound(targets, target, cause, reach):
     space = replace(SPACE, hold_speed=Bounds(1e-3), release_speed=Bounds(1e-6))
-    found = find_design({"rubber": RUBBER}, LAW, space, targets, seed=1)
+    found = vt.find_design({"rubber": RUBBER}, LAW, space, targets, seed=1)
     assert found.meets is False
     assert found.best.run is None
     limit = next(x for x in found.excluded if x.target == target)
@@ -153,8 +146,8 @@ def test_a_simulation_decides():
     answers = []
     # the simulated force of 7.39 mN lies inside the interval of the fast tier
     for hold in (7.3e-3, 7.5e-3):
-        targets = Targets(hold=hold)
-        answers.append(find_design({"rubber": RUBBER}, LAW, space, targets, accuracy=0.01))
+        targets = vt.Targets(hold=hold)
+        answers.append(vt.find_design({"rubber": RUBBER}, LAW, space, targets, accuracy=0.01))
     assert [one.best.margin < 0 < one.best.best_margins["hold"] for one in answers] == [True, True]
     assert [one.meets for one in answers] == [True, False]
 
@@ -195,13 +188,13 @@ def test_margins_take_the_ends_of_intervals_that_are_worse_for_their_target():
             value = 1.0 if pad.speed == CHOICE.hold_speed else 0.25
             return Force(value, 0.9 * value, 1.2 * value, "known")
 
-    found = Judge(Targets(hold=1.0, release=1.0, ratio=2.0)).judged(CHOICE, Known())
+    found = Judge(vt.Targets(hold=1.0, release=1.0, ratio=2.0)).judged(CHOICE, Known())
     worst = {"hold": log(1.8), "release": -log(0.6), "ratio": log(1.8 / 0.6)}
     best = {"hold": log(2.4), "release": -log(0.45), "ratio": log(2.4 / 0.45)}
     assert found.margins == pytest.approx({**worst, "ratio": worst["ratio"] - log(2)})
     assert found.best_margins == pytest.approx({**best, "ratio": best["ratio"] - log(2)})
     # the interval of a poor theory may reach 0
-    ratio = Judge(Targets(ratio=2.0)).margins(CHOICE, {"hold": 0.0, "release": 1.0})
+    ratio = Judge(vt.Targets(ratio=2.0)).margins(CHOICE, {"hold": 0.0, "release": 1.0})
     assert ratio["ratio"] == -inf
 
 
@@ -212,7 +205,7 @@ def test_a_design_is_possible_if_intervals_of_twice_the_width_leave_it_open():
 
 
 def test_a_simulated_load_falls_after_the_time(fast):
-    targets = Targets(dead_load=1e-3, holding_time=10.0)
+    targets = vt.Targets(dead_load=1e-3, holding_time=10.0)
     one = Judge(targets).judged(CHOICE, fast)
     load = one.forces["dead_load"].value
     run = simulate(one, fast, Judge(targets), accuracy=0.02)
@@ -281,7 +274,7 @@ equilibrium_gap = "20 nm"
 def test_a_file_states_conditions_and_scatter(tmp_path):
     file = tmp_path / "design.toml"
     file.write_text(FILE)
-    found = read_design(file)
+    found = vt.read_design(file)
     conditions = found.conditions
     assert conditions.hold_window == pytest.approx(10.0)
     assert conditions.deviations == {"radius": 0.03, "work_of_adhesion": 0.1}
@@ -294,8 +287,72 @@ def test_a_file_states_conditions_and_scatter(tmp_path):
 
 def test_a_preload_limit_binds():
     space = replace(SPACE, preload=Bounds(1e-3, 20e-3), hold_speed=Bounds(1e-3), release_speed=None)
-    targets = Targets(hold=1e-3, preload=3e-3)
-    found = find_design({"rubber": RUBBER}, LAW, space, targets, confirm=0, seed=1)
+    targets = vt.Targets(hold=1e-3, preload=3e-3)
+    found = vt.find_design({"rubber": RUBBER}, LAW, space, targets, confirm=0, seed=1)
     assert found.best.choice.preload < 3e-3
     assert found.best.margins["preload"] == pytest.approx(log(3e-3 / found.best.choice.preload))
     assert exp(found.best.margin) > 1 and len(found.front) > 2
+
+
+# Tests of the operation ``design``: its file, command, table, picture and words.
+SMALL = """
+[targets]
+hold = "5 mN"
+release = "2.5 mN"
+[bounds]
+radius = "1 mm..4 mm"
+preload = "4 mN"
+hold_speed = "1 mm/s"
+release_speed = "1 um/s"
+pads = 2
+[material]
+model = "power-law"
+rubbery_modulus = "1.5 MPa"
+glassy_modulus = "15 MPa"
+exponent = 0.6
+tau0 = "0.1 s"
+poisson_ratio = 0.5
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "50 mJ/m^2"
+equilibrium_gap = "100 nm"
+"""
+
+
+@pytest.mark.parametrize(
+    "old, new, field",
+    [
+        ('hold = "5 mN"\nrelease = "2.5 mN"', "", "target"),
+        ('hold = "5 mN"', 'hold = "-5 mN"', "hold"),
+        ('"1 mm..4 mm"', '"1 mm..4 s"', "radius"),
+        ("pads = 2", 'pads = "1..2.5"', "pads"),
+        ("pads = 2", 'pads = 2\narea = "1 mm^2"', "pads"),
+        ("[interface]", "[protocol]", "protocol"),
+    ],
+)
+def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
+    small.write_text(SMALL.replace(old, new))
+    with pytest.raises(InputError, match=field):
+        read_design(small)
+
+
+def test_the_command_writes_a_table_and_a_picture(small):
+    line = ["design", "small.toml", "--confirm", "1", "--accuracy", "0.01"]
+    done = CliRunner().invoke(application(), [*line, "--csv", "d.csv", "--plot", "d.svg"])
+    assert done.exit_code == 0, done.output
+    row = next(csv.DictReader(Path("d.csv").read_text().splitlines()))
+    assert row["meets"] == "True"
+    assert float(row["simulated_hold_N"]) == pytest.approx(float(row["hold_N"]), rel=0.05)
+    assert Path("d.svg").stat().st_size > 5000
+
+
+def test_a_target_out_of_reach_is_drawn_with_the_best_design(small):
+    small.write_text(SMALL.replace('hold = "5 mN"', 'hold = "60 mN"'))
+    answer = ask("design", file="small.toml")
+    assert answer.found.meets is False
+    axes = draw_design(answer.found, read_design(small)).axes
+    at = [line.get_xdata()[0] for line in axes[0].lines if line.get_linestyle() == ":"]
+    best = answer.found.best.choice
+    assert in_si(axes[0].xaxis, at) == pytest.approx([best.hold_speed, best.release_speed])
+    (wanted,) = (x.get_ydata()[0] for x in axes[0].lines if x.get_label() == "hold, at least")
+    assert in_si(axes[0].yaxis, wanted) == pytest.approx(60e-3)

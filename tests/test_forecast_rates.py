@@ -10,7 +10,7 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from rate_tests import LENS, holds, measured, of_other
-from viscotack.errors import InputError
+from solids import creep_power_law, standard_solid
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, posterior
 from viscotack.identify.covariances import SphereTests, covariance
 from viscotack.identify.forward import Forward, Interface
@@ -20,9 +20,7 @@ from viscotack.model.materials.passport import Evidence
 from viscotack.model.materials.passport_uncertainty import allowed
 from viscotack.model.materials.shift import WLF
 
-SOLID = vt.RetardationPowerLaw(
-    rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
-)
+SOLID = creep_power_law(1e6, 1e7, 0.5, 1e-2, 0.5)
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 1e-3
 SPEEDS = np.geomspace(1e-6, 1e-3, 4)
 RUBBER = Passport(
@@ -35,9 +33,7 @@ RUBBER = Passport(
 # With three allowed solids, as wide as the interval: the 24 that it is else drawn into take longer.
 THREE = replace(RUBBER, allowed=tuple(replace(SOLID, tau0=1.5**n * 1e-2) for n in (-1, 0, 1)))
 # Soon fitted, and near the solid of the files.
-QUICK = vt.StandardSolid(
-    rubbery_modulus=1.458e6, glassy_modulus=4.374e6, tau0=1e-3, poisson_ratio=0.5
-)
+QUICK = standard_solid(1.458e6, 4.374e6, 1e-3, 0.5)
 
 
 @pytest.fixture(scope="module")
@@ -126,11 +122,11 @@ def test_the_posterior_agrees_with_the_profile(fit):
 
 
 def test_what_cannot_be_forecast_is_refused(fit):
-    with pytest.raises(InputError, match="dwell"):
+    with pytest.raises(vt.InputError, match="dwell"):
         forecast_rates(fit, [1e-4], dwell=1.0)
     passport = replace(RUBBER, shift=None)
     bare = of_other(fit, material=passport)
-    with pytest.raises(InputError, match="temperature"):
+    with pytest.raises(vt.InputError, match="temperature"):
         forecast_rates(bare, [1e-4], temperature=310.0)
 
 

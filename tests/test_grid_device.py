@@ -7,12 +7,9 @@ import pytest
 from scipy import fft
 
 import viscotack as vt
-from viscotack.errors import InputError
-from viscotack.model.geometry import Frictionless, Layer
-from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, Retraction
-from viscotack.model.surfaces import self_affine
+from test_rough_checkpoint import problem as rough
 from viscotack.simulate.grid import plane
-from viscotack.simulate.rough import RoughProblem, pull, pulling
+from viscotack.simulate.rough import pull, pulling
 
 
 class OnDevice(np.lib.mixins.NDArrayOperatorsMixin):
@@ -92,26 +89,7 @@ def device(monkeypatch):
 
 
 def problem(periodic, start, body):
-    surface = self_affine(
-        16, 1e-5, hurst=0.8, rms_height=1.5e-6, seed=3, shortest=8e-5, periodic=periodic
-    )
-    law = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
-    full = law.strength * surface.area
-    moves = (Approach(speed=2e-5, to=AtForce(0.02 * full)), Dwell(duration=0.1))
-    return RoughProblem(
-        surface=surface,
-        material=vt.StandardSolid(
-            rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-        ),
-        traction=law,
-        protocol=Retraction(
-            start=Apart(6e-6) if start else AtForce(0.02 * full),
-            moves=moves if start else (),
-            speed=2e-5,
-            stiffness=2 * full / 1.5e-6 if start else None,
-        ),
-        body=body,
-    )
+    return rough(16, 1.5e-6, apart=start, body=body, periodic=periodic)
 
 
 @pytest.mark.parametrize(
@@ -119,7 +97,7 @@ def problem(periodic, start, body):
     [
         (True, True, vt.HalfSpace()),
         (False, False, vt.HalfSpace()),
-        (True, False, Layer(thickness=4e-5, base=Frictionless())),
+        (True, False, vt.Layer(thickness=4e-5, base=vt.Frictionless())),
     ],
 )
 def test_a_device_gives_the_same_digits(tmp_path, device, periodic, start, body):
@@ -135,7 +113,7 @@ def test_a_device_gives_the_same_digits(tmp_path, device, periodic, start, body)
 
 
 def test_without_cupy_a_device_is_refused():
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(vt.InputError) as refused:
         pull(problem(True, False, vt.HalfSpace()), device="cuda")
     assert refused.value.field == "device"
 
@@ -144,5 +122,5 @@ def test_a_map_that_memory_does_not_hold_is_refused(monkeypatch):
     monkeypatch.setattr(pulling, "memory", lambda device: 16 * 16 * 450.0)
     stated = problem(True, False, vt.HalfSpace())
     pulling.check_memory(stated.contact.plane, 1)
-    with pytest.raises(InputError):
+    with pytest.raises(vt.InputError):
         pulling.check_memory(stated.contact.plane, 2)

@@ -6,6 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 import viscotack as vt
+from solids import creep_power_law
 from viscotack.app.cli import application
 
 GROUPS = """
@@ -50,9 +51,7 @@ def read(folder, text):
 
 
 def test_a_sphere_in_groups(tmp_path):
-    solid = vt.RetardationPowerLaw(
-        rubbery_modulus=1, glassy_modulus=10, exponent=0.8, tau0=1, poisson_ratio=0
-    )
+    solid = creep_power_law(1, 10, 0.8, 1, 0)
     moves = (vt.Approach(5.0, vt.AtDepth(80.0)), vt.Dwell(2.0))
     expected = vt.Groups(3.24, solid, vt.AtDepth(73.0), 316.23, moves=moves, stiffness=4.0)
     assert read(tmp_path, GROUPS) == expected

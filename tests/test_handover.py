@@ -15,9 +15,7 @@ ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
 
 def pulled(tabor: float, material: Any = SOLID, **changes: Any) -> vt.Groups:
-    groups = vt.Groups(
-        tabor=tabor, material=material, start=vt.AtDepth(10.0 * tabor), rate=10.0 * tabor
-    )
+    groups = vt.Groups(tabor, material, vt.AtDepth(10.0 * tabor), 10.0 * tabor)
     return replace(groups, **changes)
 
 

@@ -9,7 +9,6 @@ import pytest
 
 import viscotack as vt
 from viscotack.app.operations import ask
-from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import attraction, identify_approach
 from viscotack.identify.approach import work_of_jump_in
 from viscotack.lab.tack import TackRecord, evaluate, survey
@@ -106,13 +105,11 @@ def test_a_soft_solid_jumps_by_its_own_scale():
 def test_the_jump_is_that_of_the_solver():
     gap = 30.8e-9
     problem = vt.Problem(
-        material=vt.Elastic(rubbery_modulus=0.75 * MODULUS, poisson_ratio=0.5),
-        traction=law(gap),
-        geometry=vt.Sphere(radius=RADIUS),
-        protocol=vt.Retraction(
-            start=vt.Apart(gap=20 * gap),
-            moves=(vt.Approach(speed=1e-7, to=vt.AtForce(1e-7)),),
-            speed=None,
+        vt.Elastic(rubbery_modulus=0.75 * MODULUS, poisson_ratio=0.5),
+        law(gap),
+        vt.Sphere(RADIUS),
+        vt.Retraction(
+            vt.Apart(20 * gap), None, moves=(vt.Approach(speed=1e-7, to=vt.AtForce(1e-7)),)
         ),
     )
     result = vt.solve(problem, estimate_error=False)
@@ -169,22 +166,16 @@ def test_a_stiffer_solid_at_once_lowers_the_lower_end_only():
     assert other.equilibrium_gap.low < elastic.equilibrium_gap.low
 
 
-def test_an_attraction_that_no_range_has_is_refused():
+def test_what_no_range_explains_is_refused():
     cycle = by_theory(0.2e-9)
     curved = np.linspace(-1, 1, cycle.force.size)
     wavy = replace(cycle, force=cycle.force + 40e-9 * np.sin(30 * curved))
-    with pytest.raises(OutOfRange, match="baseline"):
+    with pytest.raises(vt.OutOfRange, match="baseline"):
         identify_approach(wavy, **SOLID)
-
-
-def test_a_contact_that_closes_without_a_jump_is_refused():
-    with pytest.raises(OutOfRange, match="without a jump"):
+    with pytest.raises(vt.OutOfRange, match="without a jump"):
         attraction(law(5e-9), radius=1e-8, contact_modulus=1e9, stiffness=1e3)
-
-
-def test_a_level_outside_its_range_is_refused():
-    with pytest.raises(InputError, match="level"):
-        identify_approach(by_theory(0.2e-9), **SOLID, level=1.2)
+    with pytest.raises(vt.InputError, match="level"):
+        identify_approach(cycle, **SOLID, level=1.2)
 
 
 @pytest.fixture
@@ -219,7 +210,7 @@ def test_the_operation_bounds_the_range(file):
     given = {"files": [str(path)], "radius": "7.5 um", "spring_constant": "3.01 N/m"}
     (record,) = ask("identify approach", **given, contact_modulus="1.96 MPa").record()["approaches"]
     assert record["bound_m"] == pytest.approx(identify_approach(cycle, **SOLID).bound, rel=0.1)
-    with pytest.raises(InputError, match="contact_modulus"):
+    with pytest.raises(vt.InputError, match="contact_modulus"):
         ask("identify approach", **given)
 
 
@@ -229,11 +220,11 @@ def test_a_rate_series_knows_the_bound_of_its_approaches(file, monkeypatch):
 
     def series(tests, **options):
         known.append(options["range_bound"])
-        raise InputError("enough")
+        raise vt.InputError("enough")
 
     monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", series)
     rubber = '[material]\nmodel = "elastic"\nrubbery_modulus = "1.47 MPa"\npoisson_ratio = 0.5\n'
     given = {"files": [str(path)], "radius": "7.5 um", "spring_constant": "3.01 N/m"}
-    with pytest.raises(InputError, match="enough"):
+    with pytest.raises(vt.InputError, match="enough"):
         ask("identify rates", **given, material=rubber)
     assert known == [pytest.approx(identify_approach(cycle, **SOLID).bound, rel=0.1)]

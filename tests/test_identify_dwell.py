@@ -11,19 +11,7 @@ from scipy.stats import t as student
 import tack_files
 import viscotack as vt
 from rate_tests import GAP, LENS, PRELOAD, RADIUS, RUBBER, WORK, holds
-from viscotack.app.operations import ask
-from viscotack.errors import InputError
-from viscotack.identify import (
-    PullOff,
-    RateSeries,
-    contact_time,
-    forecast_edge,
-    forecast_rates,
-    identify_dwell,
-    identify_edge,
-    identify_rates,
-    pull_offs,
-)
+from viscotack import identify
 from viscotack.identify.contact_time import check_relaxed
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured, survey
@@ -45,7 +33,9 @@ FORMS = {
 
 def fitted(form, noise=0.005, seed=0, times=TIMES):
     scatter = 1 + noise * np.random.default_rng(seed).standard_normal(times.size)
-    return identify_dwell(times, 1.5 * np.pi * 5e-3 * FORMS[form](times) * scatter, radius=5e-3)
+    return identify.identify_dwell(
+        times, 1.5 * np.pi * 5e-3 * FORMS[form](times) * scatter, radius=5e-3
+    )
 
 
 @pytest.mark.parametrize(
@@ -80,7 +70,7 @@ def test_without_growth_no_law_is_stated_in_nearly_all_series():
 def test_intervals_of_growth_and_reference_time_are_those_of_student(level):
     t, count = TIMES, TIMES.size
     F = 1e-3 * (1 + 0.3 * np.log1p(t / 10)) * (1 + 0.08 * np.cos(3 * np.arange(count) ** 2))
-    found = identify_dwell(t, F, radius=tack_files.SPHERE["radius"], level=level)
+    found = identify.identify_dwell(t, F, radius=tack_files.SPHERE["radius"], level=level)
 
     def line(shape):
         """Return b over a of the fit a + b shape, and its relative misfit."""
@@ -103,14 +93,14 @@ def test_intervals_of_growth_and_reference_time_are_those_of_student(level):
 
 @pytest.mark.parametrize("times", [[1.0, 1.0, 10.0, 10.0], [1.0, 2.0, 3.0, 4.0]])
 def test_too_few_dwells_are_refused(times):
-    with pytest.raises(InputError, match="dwells"):
-        identify_dwell(times, np.ones(len(times)), radius=5e-3)
+    with pytest.raises(vt.InputError, match="dwells"):
+        identify.identify_dwell(times, np.ones(len(times)), radius=5e-3)
 
 
 def test_a_solid_that_relaxes_between_the_dwells_is_refused():
     solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e6, tau0=2.0, poisson_ratio=0.5)
     check_relaxed(solid, np.array([50.0, 1e3]))
-    with pytest.raises(InputError, match="the modulus relaxes by"):
+    with pytest.raises(vt.InputError, match="the modulus relaxes by"):
         check_relaxed(solid, np.array([1.0, 1e3]))
 
 
@@ -131,7 +121,7 @@ def files(tmp_path, monkeypatch):
 
 
 def test_files_of_several_dwells_give_the_growth(files):
-    answer = ask("identify dwell", files=files, material=TABLE, radius="5 mm")
+    answer = vt.ask("identify dwell", files=files, material=TABLE, radius="5 mm")
     record = answer.record()
     middle = 0.1 * (1 + 0.1 * np.log1p(np.exp(np.log(record["times_s"]).mean()) / 0.01))
     assert record["work_of_adhesion_J_m2"] == pytest.approx(middle, rel=0.01)
@@ -147,12 +137,13 @@ def of_design(speeds, times, work, noise=0.015, seed=0, own=1e-3):
     scatter = 1 + noise * np.random.default_rng(seed).standard_normal(len(speeds))
     forces = scatter * edge_law.pull_off_force(speeds, work_of_adhesion=work, **EDGE)
     first = np.arange(cycle.time.size) > cycle.segments.dwell
-    return pull_offs(
+    return identify.pull_offs(
         [
             replace(
                 cycle,
                 speed=Measured(float(v), 0.0),
-                time=cycle.time + np.where(first, t - contact_time.contact_time(cycle), 0.0),
+                time=cycle.time
+                + np.where(first, t - identify.contact_time.contact_time(cycle), 0.0),
                 pull_off_force=Measured(float(F), own * float(F)),
             )
             for v, t, F in zip(speeds, times, forces, strict=True)
@@ -162,7 +153,7 @@ def of_design(speeds, times, work, noise=0.015, seed=0, own=1e-3):
 
 def edge_fit(tests):
     case = {"radius": EDGE["radius"], "preload": EDGE["preload"], "theory": 0.002}
-    return identify_edge(RateSeries(tests, material=SOLID, **case))
+    return identify.identify_edge(identify.RateSeries(tests, material=SOLID, **case))
 
 
 CASE = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
@@ -185,7 +176,7 @@ def test_speeds_and_dwells_together_give_edge_law_and_growth_in_time(growth):
     assert (fit.ageing.chance < 1e-4) == bool(growth)
     assert fit.given.middle_time == pytest.approx(100) and not fit.ageing.together
     assert fit.describes_tests and not fit.unexplained
-    forecast = forecast_edge(fit, [3e-5])
+    forecast = identify.forecast_edge(fit, [3e-5])
     assert holds(forecast, edge_law.pull_off_force([3e-5], work_of_adhesion=0.06, **EDGE))
     assert forecast.contact_time == pytest.approx([100])
 
@@ -200,9 +191,9 @@ def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_d
 
     noise = 1 + 0.015 * np.random.default_rng(2).standard_normal(9)
     rows = zip(speeds, pulled(speeds, times) * noise, times, strict=True)
-    tests = [PullOff(v, Measured(F, 0.015 * F), contact_time=t) for v, F, t in rows]
+    tests = [identify.PullOff(v, Measured(F, 0.015 * F), contact_time=t) for v, F, t in rows]
     case = {"material": RUBBER, "radius": RADIUS, "preload": PRELOAD, "theory": 0.002}
-    fit = identify_rates(RateSeries(tests, **case))
+    fit = identify.identify_rates(identify.RateSeries(tests, **case))
     for name, value in (
         ("work_of_adhesion", WORK),
         ("equilibrium_gap", GAP),
@@ -210,15 +201,15 @@ def test_an_interface_that_grows_with_time_is_found_and_forecast_after_another_d
     ):
         assert fit.intervals[name].low < value < fit.intervals[name].high
     speed = np.array([1e-4])
-    assert holds(forecast_rates(fit, speed), pulled(speed, [100.0]))
-    later = forecast_rates(fit, speed, dwell=1e4, approach_speed=1e-4)
+    assert holds(identify.forecast_rates(fit, speed), pulled(speed, [100.0]))
+    later = identify.forecast_rates(fit, speed, dwell=1e4, approach_speed=1e-4)
     assert later.contact_time == pytest.approx([1e4], rel=1e-3)
     assert holds(later, pulled(speed, [1e4])) and later.low > pulled(speed, [300.0])
     monkeypatch.setattr(
         "viscotack.app.operations.uncertainty.fitted", lambda *_: SimpleNamespace(fit=fit)
     )
     known = {"study": "known.toml", "samples": 6}
-    told = ask("uncertainty", problem=str(CASE), **known).notes
+    told = vt.ask("uncertainty", problem=str(CASE), **known).notes
     assert any("100 s" in note for note in told)
 
 
@@ -248,20 +239,22 @@ def test_tests_that_one_interface_does_not_explain_are_named():
 def test_a_series_of_several_dwells_needs_a_relaxed_solid():
     solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e6, tau0=2.0, poisson_ratio=0.5)
     tests = [
-        PullOff(v, Measured(4e-3, 1e-5), 1e-3, contact_time=t) for v in (1e-6, 1e-5) for t in (1, 9)
+        identify.PullOff(v, Measured(4e-3, 1e-5), 1e-3, contact_time=t)
+        for v in (1e-6, 1e-5)
+        for t in (1, 9)
     ]
-    with pytest.raises(InputError, match="relaxes"):
-        RateSeries(tests, material=solid, radius=5e-3)
-    RateSeries(tests[::2], material=solid, radius=5e-3)
+    with pytest.raises(vt.InputError, match="relaxes"):
+        identify.RateSeries(tests, material=solid, radius=5e-3)
+    identify.RateSeries(tests[::2], material=solid, radius=5e-3)
 
 
 def test_without_an_approach_the_time_in_contact_is_unknown():
     (cycle,) = survey([LENS[1]]).cycles
     bare = replace(cycle, segments=replace(cycle.segments, begin=cycle.segments.dwell))
-    assert contact_time.contact_time(cycle) == pytest.approx(60.4, rel=1e-3)
-    assert contact_time.contact_time(bare) is None
-    with pytest.raises(InputError, match="approach"):
-        contact_time.tests_by_dwell([bare])
+    assert identify.contact_time.contact_time(cycle) == pytest.approx(60.4, rel=1e-3)
+    assert identify.contact_time.contact_time(bare) is None
+    with pytest.raises(vt.InputError, match="approach"):
+        identify.contact_time.tests_by_dwell([bare])
 
 
 def test_files_of_several_speeds_and_dwells_give_a_study_whose_forecast_states_its_time(files):
@@ -279,7 +272,7 @@ def test_files_of_several_speeds_and_dwells_give_a_study_whose_forecast_states_i
             names.append(f"{speed}_{number}.csv")
             np.savetxt(names[-1], table, delimiter=",", header=head, comments="")
     about = {"radius": "5 mm", "contact_modulus": "1 MPa", "preload": "2 mN"}
-    answer = ask("identify edge", files=names, **about)
+    answer = vt.ask("identify edge", files=names, **about)
     answer.files["output"]("edge.toml")
     found = answer.record()
     middle = 0.1 * (1 + 0.1 * np.log(found["ageing"]["middle_time_s"] / 0.01))
@@ -287,5 +280,5 @@ def test_files_of_several_speeds_and_dwells_give_a_study_whose_forecast_states_i
     # forces of these files are proportional to the work, those of an edge law nearly so
     assert grown == pytest.approx(0.01 * np.log(10) / middle, rel=0.1)
     assert found["ageing"]["separate"] and len(found["series"]) == 8
-    forecast = ask("forecast", study="edge.toml", speed=["50 um/s"]).record()["forecast"]
+    forecast = vt.ask("forecast", study="edge.toml", speed=["50 um/s"]).record()["forecast"]
     assert forecast[0]["contact_time_s"] == pytest.approx(found["ageing"]["middle_time_s"])

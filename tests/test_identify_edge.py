@@ -12,7 +12,6 @@ from command_line import exit_status
 from rate_tests import holds, measured
 from viscotack.app.operations import operation
 from viscotack.app.operations.request import request_of
-from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_edge, identify_edge, identify_rates
 from viscotack.theory import edge_law, jkr
 
@@ -101,10 +100,10 @@ def test_an_edge_law_is_found_again_and_forecast():
     # up to ten times beyond the measured speeds
     forecast_edge(fit, [1e-7, 1e-2])
     for speed in (0.9e-7, 1.1e-2):
-        with pytest.raises(OutOfRange, match="edge law"):
+        with pytest.raises(vt.OutOfRange, match="edge law"):
             forecast_edge(fit, [speed])
     asked = request_of(operation("forecast"), {"study": "edge.toml", "temperature": "30 degC"})
-    with pytest.raises(InputError, match="temperature"):
+    with pytest.raises(vt.InputError, match="temperature"):
         asked.of_fit(fit)
 
 
@@ -115,9 +114,9 @@ def test_the_edge_law_of_a_spring_is_found_again():
 
 
 def test_what_an_edge_law_does_not_know_is_refused():
-    with pytest.raises(InputError, match="growth"):
+    with pytest.raises(vt.InputError, match="growth"):
         identify_edge(series(pulled(SPEEDS), growth=True))
-    with pytest.raises(InputError, match="speeds"):
+    with pytest.raises(vt.InputError, match="speeds"):
         identify_edge(series(pulled(SPEEDS[:3]), speeds=SPEEDS[:3]))
 
 

@@ -8,9 +8,7 @@ import pytest
 
 import viscotack as vt
 from rate_tests import LENS, holds, measured, of_other
-from viscotack.app.operations import ask
 from viscotack.app.operations.parts.report.rendering import page
-from viscotack.errors import InputError
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
 from viscotack.identify.computed import Computed
@@ -72,7 +70,7 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     shifting = replace(
         fit.passport, temperature=293.15, shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
     )
-    with pytest.raises(InputError, match="temperature"):
+    with pytest.raises(vt.InputError, match="temperature"):
         forecast_rates(of_other(fit, material=shifting), [3e-5], temperature=310.0)
 
 
@@ -124,10 +122,10 @@ def test_growth_is_an_option_of_the_operation(monkeypatch):
 
     def series(tests, **options):
         asked.append(options["growth"])
-        raise InputError("enough")
+        raise vt.InputError("enough")
 
     monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", series)
     for growth in (True, False):
-        with pytest.raises(InputError, match="enough"):
-            ask("identify rates", files=LENS, material="pdms-10-1", radius="5 mm", growth=growth)
+        with pytest.raises(vt.InputError, match="enough"):
+            vt.ask("identify rates", files=LENS, material="pdms-10-1", radius="5 mm", growth=growth)
     assert asked == [True, False]

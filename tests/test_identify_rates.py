@@ -24,7 +24,6 @@ from rate_tests import (
     measured,
     of_other,
 )
-from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.force_ratios import yielding_near
 from viscotack.identify.forward import Forward, Interface
@@ -121,7 +120,7 @@ def test_speeds_at_which_the_theory_does_not_hold_are_excluded():
     assert [one.speed for one in fit.series] == speeds[:-1].tolist()
     assert [one.speed for one, why in fit.excluded if why] == [1.0]
     assert fit.equilibrium_gap == pytest.approx(10e-9, rel=0.02)
-    with pytest.raises(OutOfRange, match="2 m/s"):
+    with pytest.raises(vt.OutOfRange, match="2 m/s"):
         fitted(force[-2:], 0.01, [1.0, 2.0], material=solid, gaps=(2e-9, 2e-8))
 
 
@@ -151,7 +150,7 @@ def test_a_series_without_information_is_refused(change, name):
     tests = measured([4e-3, 5e-3], 0.01, SPEEDS[:2])
     series = RateSeries(tests, material=RUBBER, radius=RADIUS, preload=PRELOAD)
     unloaded = {"tests": tests} | change
-    with pytest.raises(InputError, match=name):
+    with pytest.raises(vt.InputError, match=name):
         replace(series, **unloaded)
 
 

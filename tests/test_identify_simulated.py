@@ -15,7 +15,6 @@ from viscotack.identify.forward import Forward
 from viscotack.identify.pull_off import History
 from viscotack.lab.tack import survey
 from viscotack.model.materials import Passport
-from viscotack.model.protocol import Approach, Dwell
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
 RADIUS, WORK, PRELOAD = 5e-3, 0.1, 4e-3
@@ -67,7 +66,7 @@ def test_theory_and_simulation_agree_within_their_errors_where_both_hold():
 
 
 def test_a_finite_dwell_is_simulated():
-    moves = (Approach(1e-4, to=vt.AtForce(PRELOAD)), Dwell(0.2, hold="force"))
+    moves = (vt.Approach(1e-4, to=vt.AtForce(PRELOAD)), vt.Dwell(0.2, hold="force"))
     speed = np.array([1e-4])
     with Simulations() as runs:
         passport = Passport(name="", material=SOLID)
@@ -84,7 +83,7 @@ def test_a_series_after_short_dwells_gives_back_its_interface_by_the_history_of_
     relaxing = History(1e-4, PRELOAD, 0.05)
 
     def force(speed):
-        moves = (Approach(1e-4, to=vt.AtForce(PRELOAD)), Dwell(0.05, hold="force"))
+        moves = (vt.Approach(1e-4, to=vt.AtForce(PRELOAD)), vt.Dwell(0.05, hold="force"))
         problem = FORWARD.problem(WORK, LENGTH / 3, PRELOAD, speed, moves=moves)
         found = vt.solve(problem, until="pull-off", accuracy=2e-3, estimate_error=False)
         return vt.pull_off_force(found) * problem.scales().force

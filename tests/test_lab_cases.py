@@ -9,14 +9,7 @@ from numpy.testing import assert_allclose
 
 import tack_files
 from viscotack.errors import InputError
-from viscotack.lab import (
-    FrequencySweeps,
-    RelaxationTest,
-    fit,
-    master_curve,
-    read,
-    read_dma,
-)
+from viscotack.lab import FrequencySweeps, RelaxationTest, fit, master_curve, read, read_dma
 from viscotack.lab.tack import evaluate
 from viscotack.lab.tack import read as read_tests
 from viscotack.model.surfaces import read_map

@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from picture_units import in_si
 from rate_tests import measured
-from viscotack.errors import InputError
+from solids import creep_power_law
 from viscotack.identify import RateSeries, Trial, forecast_rates, identify_rates, next_tests
 from viscotack.identify.forward import Forward
 from viscotack.identify.ranked_tests import noise_of
@@ -17,9 +17,7 @@ from viscotack.model.materials import Passport
 from viscotack.model.materials.shift import WLF
 from viscotack.plot.next_tests import draw_next_tests
 
-SOLID = vt.RetardationPowerLaw(
-    rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
-)
+SOLID = creep_power_law(1e6, 1e7, 0.5, 1e-2, 0.5)
 RUBBER = Passport(
     name="rubber",
     material=SOLID,
@@ -123,5 +121,5 @@ def test_the_operation_ranks_every_combination(tmp_path, fit, monkeypatch):
     assert (tmp_path / "tests.csv").read_text().count("\n") == 5
     left, _ = draw_next_tests(answer.found).axes
     assert in_si(left.xaxis, left.lines[0].get_xdata()) == pytest.approx([1e-5, 1e-3])
-    with pytest.raises(InputError, match="forecast_speed"):
+    with pytest.raises(vt.InputError, match="forecast_speed"):
         vt.ask("next-test", **asked, forecast_preload="1 mN")

@@ -11,7 +11,6 @@ import pytest
 import viscotack as vt
 from synthetic import SI, jkr_result
 from viscotack.app.operations.parts.examples import FIRST
-from viscotack.errors import NotInstalled
 from viscotack.model.problem.case_file import case_of_tables
 from viscotack.units import readable
 
@@ -54,5 +53,5 @@ def test_a_result_is_shown_short_and_its_series_as_a_frame(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", table)
     assert result.to_frame()["force_N"] == pytest.approx(result.force * result.scales.force)
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(NotInstalled):
+    with pytest.raises(vt.NotInstalled):
         result.to_frame()

@@ -76,9 +76,7 @@ ASKED = {
     "predict": [{"problem": SPHERE}, {"problem": PUNCH}, {"problem": "lens.toml"}],
     "schema": [{}],
     "test read": [{"files": ["lens_1_um_s.csv"]}, {"files": LENS}],
-    "theory crack-contact": [
-        {"problem": SPHERE | {"tabor": 1e4, "preload": 2e5, "rate": 1e3}},
-    ],
+    "theory crack-contact": [{"problem": SPHERE | {"tabor": 1e4, "preload": 2e5, "rate": 1e3}}],
     "theory greenwood": [CRACK],
     "theory disc": [JKR | {"strength": "50 kPa"}, JKR | {"thickness": "60 um", "bonded": 0.49}],
     "theory jkr": [JKR],

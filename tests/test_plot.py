@@ -2,6 +2,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from picture_units import in_si
+from solids import standard_solid
 from synthetic import SI, jkr_result
 from viscotack.plot.simulation import draw_force
 from viscotack.plot.style import label_in_si, save_figure
@@ -42,14 +43,11 @@ def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
 
 
 def test_axes_of_a_regime_map_have_units_of_their_size():
-    from viscotack import StandardSolid
     from viscotack.plot.regimes import draw_regimes
     from viscotack.theory.punch import Frictionless, Pad
     from viscotack.theory.punch.map import regime_map
 
-    solid = StandardSolid(
-        rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
-    )
+    solid = standard_solid(0.75e6, 7.5e6, 1e-3, 0.5)
     held = {"contact_modulus": 1e6, "work_of_adhesion": 0.05, "strength": 5e4}
     pad = Pad(half_width=1e-3, **held, base=Frictionless())
     law = pad.crack_law("greenwood", material=solid)

@@ -154,10 +154,7 @@ def test_a_contact_beyond_small_strain_is_refused():
 def test_advice_on_a_cone_is_that_of_the_cone():
     case = problem()
     found = advise(case)
-    interface = {
-        "contact_modulus": SOLID.contact_modulus,
-        "work_of_adhesion": LAW.work_of_adhesion,
-    }
+    interface = {"contact_modulus": SOLID.contact_modulus, "work_of_adhesion": LAW.work_of_adhesion}
     _, end = ends(CONE, **interface)
     slow = found.contact.slow_force * found.force_scale
     assert slow == pytest.approx(-end.force, rel=1e-6)

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack as vt
+from solids import creep_power_law, standard_solid
 
 ACCURACY = 0.01
 
@@ -38,9 +39,7 @@ def decades(low, high):
 
 @st.composite
 def standard_solids(draw):
-    return vt.StandardSolid(
-        rubbery_modulus=1.0, glassy_modulus=draw(decades(1.5, 100)), tau0=1.0, poisson_ratio=0.0
-    )
+    return standard_solid(1.0, draw(decades(1.5, 100)), 1.0, 0.0)
 
 
 @st.composite
@@ -54,12 +53,8 @@ def series(draw):
 
 @st.composite
 def power_laws(draw):
-    return vt.RetardationPowerLaw(
-        rubbery_modulus=1.0,
-        glassy_modulus=draw(decades(2, 100)),
-        tau0=1.0,
-        exponent=draw(st.floats(0.3, 1.6).map(lambda x: round(x, 3))),
-        poisson_ratio=0.0,
+    return creep_power_law(
+        1.0, draw(decades(2, 100)), draw(st.floats(0.3, 1.6).map(lambda x: round(x, 3))), 1.0, 0.0
     )
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import stated
 from command_line import answered, refused
 from viscotack.model.geometry import Bonded
 from viscotack.model.problem import Problem
@@ -20,30 +21,6 @@ KEYS = {
     "crack_speed_at_pull_off": "m_per_s",
     "effective_surface_energy": "J_per_m2",
 }
-CASE = """
-[material]
-model = "sls"
-rubbery_modulus = "1.5 MPa"
-glassy_modulus = "15 MPa"
-tau0 = "100 ms"
-poisson_ratio = 0.4
-
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.15 J/m^2"
-equilibrium_gap = "1.5 um"
-
-[punch]
-half_width = "1 mm"
-
-[layer]
-thickness = "50 um"
-base = "bonded"
-
-[protocol]
-preload_stress = "2 kPa"
-speed = "100 um/s"
-"""
 PAD = [
     *("--half-width", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"),
     *("--strength", "50 kPa", "--modulus-ratio", "0.1", "--tau0", "1 ms"),
@@ -53,7 +30,7 @@ PAD = [
 @pytest.fixture
 def case_file(tmp_path):
     path = tmp_path / "pad.toml"
-    path.write_text(CASE)
+    path.write_text(stated.PAD)
     return path
 
 

@@ -8,6 +8,7 @@ from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
 from punches import resized
+from solids import standard_solid
 from viscotack.prediction.surrogate import punch_physics as physics
 from viscotack.prediction.surrogate import store
 from viscotack.prediction.tiers import AT_ONCE, SOON
@@ -37,17 +38,13 @@ def random_rows(count, seed=1):
 
 def punch_of(size=64.85, thickness=3.24, ratio=0.1, start=None, rate=10.0, **others):
     """Return a punch without dimensions."""
-    solid = vt.StandardSolid(
-        rubbery_modulus=1.0, glassy_modulus=1 / ratio, tau0=1.0, poisson_ratio=0.0
-    )
+    solid = standard_solid(1.0, 1 / ratio, 1.0, 0.0)
     parts = {"material": solid, "cohesion": 0.05, "start": start or vt.AtDepth(1.0), "rate": rate}
     punch = vt.Groups(tabor=None, geometry=vt.FlatPunch(size), body=vt.Layer(thickness), **parts)
     return resized(punch, **others)
 
 
 # by construction
-
-
 def test_no_stress_leaves_its_limits():
     surrogate, rows = shipped(), random_rows(2000)
     tests = surrogate.tests(rows)
@@ -95,8 +92,6 @@ def test_si_and_groups_cohesion_and_one_branch_change_nothing():
 
 
 # limits and order
-
-
 def test_thin_and_thick_elastic_layers_are_those_of_theory():
     """With a0 beside a and b the strength caps what a crack asks for; far from it both are one."""
     rows = np.array([[200.0, 20.0, 0.1, 1.0, 1.0], [100.0, 1000.0, 0.1, 1.0, 1.0]])
@@ -131,8 +126,6 @@ def test_a_fast_pull_off_tends_to_that_of_a_layer_that_does_not_relax():
 
 
 # simulation
-
-
 @pytest.mark.parametrize(
     "case",
     [
@@ -149,6 +142,8 @@ def test_a_simulation_lies_in_the_intervals(case):
     assert found.pull_off_force == pytest.approx(said["pull_off_stress"], rel=5e-3)
     low, high = found.work_interval
     assert low < said["work_to_pull_off"] < high
+    low, high = vt.predict(case).depth_interval
+    assert low < said["depth_at_pull_off"] < high < low + 0.1 * np.ptp(found.curve.depth)
     assert found.curve is not None and found.curve_band is not None
     # the stress at the same travel from zero stress
     depth, force = result.depth, result.force
@@ -175,8 +170,6 @@ def test_test_rows_are_predicted_within_the_documented_errors():
 
 
 # where it ends
-
-
 def test_what_was_not_learned_is_refused_by_name():
     glued = punch_of(base=vt.Bonded(poisson_ratio=0.4))
     branches = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.1), (5.0, 1.0)], poisson_ratio=0.0)

@@ -29,7 +29,10 @@ STUDY = sessions.SLOW
 
 
 # Their examples take more than four seconds.
-LONG = ("design", "first_hour", "punch", "rough_surfaces", "tack_tests", "traction-laws")
+LONG = (
+    *("control", "design", "first_hour", "punch", "rough_surfaces", "tack_tests"),
+    *("traction-laws", "uncertainty"),
+)
 
 
 def in_time(page, given=None):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from solids import standard_solid
 from viscotack.model.surfaces import self_affine
 from viscotack.simulate.rough import RoughProblem, pull
 
@@ -32,24 +32,17 @@ pull(problem(), accuracy=0.02, maps=6, checkpoint=sys.argv[1], every=0.0, progre
 HOW: Any = {"accuracy": 0.02, "maps": 6}
 
 
-def problem():
-    """Return a rough map with an approach, a dwell, a spring and jumps."""
-    surface = self_affine(24, 1e-5, hurst=0.8, rms_height=2.5e-6, seed=3, shortest=8e-5)
+def problem(pixels=24, height=2.5e-6, *, apart=True, body=None, **kind):
+    """Return a rough map, with an approach, a dwell, a spring and jumps if it starts apart."""
+    surface = self_affine(pixels, 1e-5, hurst=0.8, rms_height=height, seed=3, shortest=8e-5, **kind)
     law = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
     full = law.strength * surface.area
-    return RoughProblem(
-        surface=surface,
-        material=vt.StandardSolid(
-            rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-        ),
-        traction=law,
-        protocol=Retraction(
-            start=Apart(6e-6),
-            moves=(Approach(speed=2e-5, to=AtForce(0.02 * full)), Dwell(duration=0.1)),
-            speed=2e-5,
-            stiffness=2 * full / 1.5e-6,
-        ),
-    )
+    history = vt.Retraction(vt.AtForce(0.02 * full), 2e-5)
+    if apart:
+        moves = vt.Approach(2e-5, vt.AtForce(0.02 * full)), vt.Dwell(0.1)
+        history = vt.Retraction(vt.Apart(6e-6), 2e-5, moves, 2 * full / 1.5e-6)
+    solid = standard_solid(1.5e6, 15e6, 0.1, 0.5)
+    return RoughProblem(surface, solid, law, history, body or vt.HalfSpace())
 
 
 @pytest.fixture(scope="module")

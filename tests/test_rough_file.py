@@ -11,15 +11,10 @@ from typer.testing import CliRunner
 
 from viscotack.app.cli import application
 from viscotack.app.operations import ask
+from viscotack.campaign import CaseSettings, measure, read_plan
 from viscotack.errors import InputError
-from viscotack.model.surfaces import (
-    HeightMap,
-    read_map,
-    roughness,
-    self_affine,
-    sphere,
-)
-from viscotack.simulate.rough import read_rough
+from viscotack.model import surfaces
+from viscotack.simulate.rough import pull, read_rough, read_rough_case
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "rough"
 SMALL = """
@@ -123,12 +118,12 @@ def test_a_map_that_is_too_coarse_is_refused_unless_forced(small):
 
 
 def test_maps_are_read_with_their_digits(tmp_path):
-    surface = self_affine(16, 1e-6, hurst=0.5, rms_height=1e-7, seed=1)
+    surface = surfaces.self_affine(16, 1e-6, hurst=0.5, rms_height=1e-7, seed=1)
     np.save(tmp_path / "map.npy", surface.heights)
-    again = read_map(tmp_path / "map.npy", pixel=1e-6, periodic=True)
+    again = surfaces.read_map(tmp_path / "map.npy", pixel=1e-6, periodic=True)
     assert np.array_equal(again.heights, surface.heights)
     np.savetxt(tmp_path / "map.txt", surface.heights * 1e9, delimiter="\t")
-    again = read_map(tmp_path / "map.txt", pixel=1e-6, unit=1e-9)
+    again = surfaces.read_map(tmp_path / "map.txt", pixel=1e-6, unit=1e-9)
     assert again.heights == pytest.approx(surface.heights, rel=1e-12)
 
 
@@ -139,12 +134,12 @@ def test_a_damaged_map_is_refused(tmp_path, name, content):
     path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(InputError, match=name):
-        read_map(path, pixel=1e-6)
+        surfaces.read_map(path, pixel=1e-6)
 
 
 def test_statistics_of_a_spectrum_are_those_asked_for():
-    found = self_affine(256, 1e-6, hurst=0.7, rms_height=2e-7, seed=5, shortest=8e-6)
-    spread = roughness(found)
+    found = surfaces.self_affine(256, 1e-6, hurst=0.7, rms_height=2e-7, seed=5, shortest=8e-6)
+    spread = surfaces.roughness(found)
     assert spread.rms_height == pytest.approx(2e-7, rel=1e-12)
     # Parseval: rms values are sums over the spectrum
     inside = (spread.wave_number > 1e5) & (spread.wave_number < 7e5)
@@ -154,8 +149,55 @@ def test_statistics_of_a_spectrum_are_those_asked_for():
 
 
 def test_levelling_removes_tilt_and_curvature():
-    cap = sphere(32, 1e-6, radius=1e-3)
-    ramp = HeightMap(1e-7 * np.add.outer(np.arange(32), 2 * np.arange(32)), 1e-6)
+    cap = surfaces.sphere(32, 1e-6, radius=1e-3)
+    ramp = surfaces.HeightMap(1e-7 * np.add.outer(np.arange(32), 2 * np.arange(32)), 1e-6)
     flat = (cap + ramp).levelled(curvature=True)
     assert np.abs(flat.heights).max() < 1e-18
-    assert roughness(cap).rms_curvature == pytest.approx(1e3, rel=1e-6)
+    assert surfaces.roughness(cap).rms_curvature == pytest.approx(1e3, rel=1e-6)
+
+
+# Campaigns and sweeps of rough surfaces: inputs, plans, rows, and what is refused.
+PLAN = """
+problem = "bumps.toml"
+settings = {accuracy = 0.02}
+[[grid]]
+surface.scatter = ["0 um", "1 um"]
+protocol.speed = ["10 um/s", 1e-4]
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Return a folder to work in, with a plan, a rough surface and a measured map."""
+    monkeypatch.chdir(tmp_path)
+    Path("plan.toml").write_text(PLAN)
+    Path("bumps.toml").write_text(SMALL.replace(MAP, BUMPS))
+    Path("measured.toml").write_text(SMALL)
+    x = np.linspace(-1, 1, 16)
+    np.savetxt("map.csv", 2 - 2 * np.add.outer(x**2, x**2), delimiter=",")
+    return tmp_path
+
+
+def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(folder):
+    plan = read_plan("plan.toml")
+    assert plan.kind.columns == ("protocol.speed", "surface.scatter")
+    assert len(plan.cases) == 4 and plan.rejected == 0
+    last = list(plan.cases)[-1]
+    case = plan.kind.problem(last.inputs)
+    assert case.surface.scatter == 1e-6 and case.protocol.speed == 1e-4
+    row = measure(case, plan.settings)
+    found = pull(read_rough("bumps.toml"), accuracy=0.02)
+    assert row["pull_off_force_N"] != found.pull_off_force
+    same = measure(read_rough_case("bumps.toml"), plan.settings)
+    assert same["pull_off_force_N"] == found.pull_off_force
+    assert same["work_of_separation_J"] == found.work_of_separation
+    assert same["hysteresis_J"] == found.hysteresis and same["status"] == found.status
+    assert {"contact_share_at_pull_off", "pastewka_robbins", "steps", "versions"} <= same.keys()
+
+
+def test_a_map_that_has_changed_since_is_refused(folder):
+    case = read_rough_case("measured.toml")
+    assert len(case.surface.sha256) == 64
+    np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
+    with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):
+        measure(case, CaseSettings())

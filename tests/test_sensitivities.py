@@ -8,8 +8,7 @@ import pytest
 
 import viscotack as vt
 from dimensionless import SOLID, punch
-from viscotack.model.protocol import Approach
-from viscotack.model.traction.growing import Eyring
+from solids import standard_solid
 from viscotack.simulate.sensitivities import changed_inputs
 
 ARMS = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.03), (5.0, 1.0)], poisson_ratio=0.0)
@@ -91,7 +90,7 @@ def test_elasticities_are_slopes_through_finer_simulations(pulled, name):
 
 
 def test_a_move_to_a_force_and_a_dwell_scale_with_time():
-    moves = Approach(to=vt.AtForce(6.0), speed=3.0), vt.Dwell(0.5)
+    moves = vt.Approach(to=vt.AtForce(6.0), speed=3.0), vt.Dwell(0.5)
     test = vt.Groups(tabor=1.0, material=SOLID, start=vt.AtForce(1.0), rate=5.0, moves=moves)
     names = ["rate", "moves.0.speed", "material.tau0", "moves.1.duration"]
     by = found(test, names, accuracy=0.01)
@@ -125,11 +124,7 @@ def test_the_force_of_an_elastic_contact_is_that_of_jkr():
         geometry=vt.Sphere(1e-4),
         protocol=vt.Retraction(start=vt.AtForce(1e-4), speed=3e-5),
     )
-    jkr = {
-        "sphere.radius": 1.0,
-        "interface.work_of_adhesion": 1.0,
-        "material.rubbery_modulus": 0.0,
-    }
+    jkr = {"sphere.radius": 1.0, "interface.work_of_adhesion": 1.0, "material.rubbery_modulus": 0.0}
     by = found(soft, jkr, accuracy=3e-3).elasticities[FORCE]
     assert by == pytest.approx(jkr, abs=0.02)
 
@@ -148,10 +143,8 @@ def test_only_named_inputs_are_computed_and_saved(tmp_path):
 
 
 def test_inputs_that_move_the_pull_off_to_another_peak_have_no_elasticity():
-    # two peaks are equal at a rate of about 0.804 of the depth (tests/ladder/test_two_peaks.py)
-    solid = vt.StandardSolid(
-        rubbery_modulus=1.0, glassy_modulus=1 / 2.4e-4, tau0=1.0, poisson_ratio=0.0
-    )
+    # two peaks are equal at a rate of about 0.804 of the depth (tests/ladder/test_simulation.py)
+    solid = standard_solid(1.0, 1 / 2.4e-4, 1.0, 0.0)
     start = vt.AtDepth(78.9)
     two = vt.Groups(tabor=2.1, material=solid, start=start, rate=0.804 * 78.9)
     case = found(two, ["rate"], accuracy=0.02)
@@ -171,7 +164,7 @@ def test_an_elasticity_below_the_numerical_error_is_refused():
 
 
 def test_growing_interfaces_and_punches_have_elasticities():
-    growing = Eyring.of(vt.LennardJones(1.0, 1.0), reference_speed=1.0, sensitivity=0.1)
+    growing = vt.Eyring.of(vt.LennardJones(1.0, 1.0), reference_speed=1.0, sensitivity=0.1)
     aged = replace(PULL, traction=growing)
     by = found(aged, ["interface.sensitivity", "interface.reference_speed"], accuracy=0.01)
     by = by.elasticities[FORCE]

@@ -101,8 +101,6 @@ def test_what_is_out_of_range_is_said(changed, words):
 
 
 # Random solids -------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("number", [0, 3, 11, 26, STRETCHED])
 def test_creep_of_a_random_solid_agrees_with_its_spectrum(number):
     k = 1e-3

@@ -23,8 +23,6 @@ def random_groups(count, seed=1):
 
 
 # identity
-
-
 def test_no_force_leaves_its_bounds():
     groups = random_groups(3000)
     force = shipped().evaluate(groups).pull_off_force
@@ -120,8 +118,6 @@ def test_a_start_by_force_or_radius_is_found_again():
 
 
 # files
-
-
 def test_a_surrogate_comes_back_from_its_file(tmp_path):
     one, path = shipped(), tmp_path / "one.npz"
     store.save(one, path, {"made": "today"})

@@ -10,7 +10,6 @@ import viscotack as vt
 from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.materials import Modes
 from viscotack.model.problem.nouns import own_nouns
-from viscotack.model.traction import Tabulated
 from viscotack.testing import check, checks
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
@@ -30,7 +29,7 @@ NOUNS = {
     "lennard-jones": LENNARD_JONES,
     "dugdale": vt.Dugdale(0.05, 1e-6, rise=0.05, fall=0.5),
     "exponential": vt.Exponential(0.05, 1e-6, decay=0.3),
-    "table": Tabulated.of_points(
+    "table": vt.Tabulated.of_points(
         np.array([1.2, 1.5, 1.8, 2.1, 3.0, 4.5, 8.0]) * 1e-6,
         [-300e3, -10e3, 60e3, 75e3, 30e3, 4e3, 0.0],
     ),

@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import viscotack as vt
+from solids import creep_power_law
 from viscotack.theory.crack.steady import SteadyCrack, cracks
 
 SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=4.0, tau0=1.0, poisson_ratio=0.5)
@@ -42,9 +43,7 @@ def test_a_steady_crack_does_not_depend_on_the_speeds_that_were_asked_before(alo
 
 
 def test_simulations_and_predictions_in_threads_are_those_of_one_thread():
-    solid = vt.RetardationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.8, tau0=1.0, poisson_ratio=0.0
-    )
+    solid = creep_power_law(1.0, 10.0, 0.8, 1.0, 0.0)
     cases = [
         vt.Groups(tabor=1.0, material=solid, start=vt.AtDepth(20.0), rate=rate)
         for rate in (10.0, 100.0)

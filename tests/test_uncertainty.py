@@ -10,7 +10,6 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.errors import InputError
 from viscotack.prediction.uncertainty import TIER
 
 LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
@@ -125,7 +124,7 @@ def test_the_band_is_that_of_direct_predictions(lens):
     ],
 )
 def test_what_cannot_be_is_refused(deviations, more, words):
-    with pytest.raises(InputError, match=words):
+    with pytest.raises(vt.InputError, match=words):
         vt.uncertainty(CASE, deviations, **more)
 
 

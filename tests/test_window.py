@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.model.geometry import Bonded
 from viscotack.theory import lennard_jones
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
@@ -137,7 +136,7 @@ def test_a_slow_stamp_opens_and_a_fast_one_picks_from_an_elastic_donor(speed, op
 
 
 def test_a_contact_on_a_layer_is_undecided_without_a_simulation():
-    layer = vt.Layer(thickness=1e-3, base=Bonded(poisson_ratio=0.5))
+    layer = vt.Layer(thickness=1e-3, base=vt.Bonded(poisson_ratio=0.5))
     donor, stamp = contact(ELASTIC, work=0.1), replace(contact(), body=layer)
     found = vt.which_opens(donor, stamp)
     assert found.opened is None

@@ -5,13 +5,10 @@ import pytest
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.model.problem import Groups
 from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell, Retract
-from viscotack.model.traction import LennardJones
 from viscotack.model.traction.resting import reduced
-from viscotack.result.observables import pull_off_force
 
-REST = LennardJones(0.05, 20e-9)
+REST = vt.LennardJones(0.05, 20e-9)
 LOG = vt.LogarithmicAgeing.of(REST, reference_time=2.0, sensitivity=0.1)
 ENDS = vt.SaturatingAgeing.of(REST, reference_time=2.0, largest_growth=0.5)
 laws = pytest.mark.parametrize("law", [LOG, ENDS], ids=["logarithmic", "saturating"])
@@ -20,9 +17,7 @@ GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 20e-9
 
 def run(law, *, moves=(), start=None, material=ELASTIC, tabor=3.0, rate=3.0, **given):
     start = AtDepth(10.0) if start is None else start
-    groups = Groups(
-        tabor=tabor, material=material, start=start, rate=rate, traction=law, moves=moves
-    )
+    groups = vt.Groups(tabor, material, start, rate, traction=law, moves=moves)
     return vt.solve(groups, **({"until": "pull-off", "estimate_error": False} | given))
 
 
@@ -36,8 +31,6 @@ def pressed(law, *dwells, speed=1e3, **given):
 
 
 # --- the law
-
-
 @laws
 def test_only_surfaces_that_attract_feel_the_time(law):
     at_rest = REST.traction(GAPS)
@@ -71,22 +64,20 @@ def test_a_reduced_law_counts_times_in_the_unit_of_time(law):
 
 
 # --- limits
-
-
 @pytest.mark.parametrize("growth", [0.5, 2.0])
 def test_an_old_contact_holds_like_one_of_the_work_that_it_has_reached(growth):
     # between JKR of the bonds, whose last percent breaks, and all forces that much stronger: those
     # beyond the first edge, and of broken bonds, are not
-    old = pull_off_force(run(vt.SaturatingAgeing(1, 1, 1.0, growth)))
+    old = vt.pull_off_force(run(vt.SaturatingAgeing(1, 1, 1.0, growth)))
     more = 1 + growth
-    strong = pull_off_force(run(LennardJones(1, 1), tabor=3.0 * more ** (2 / 3)))
+    strong = vt.pull_off_force(run(vt.LennardJones(1, 1), tabor=3.0 * more ** (2 / 3)))
     assert 1 + 0.985 * growth < old < more * strong
     assert old == pytest.approx(more * strong, rel=0.012)
 
 
 def test_weak_growth_is_the_law_at_rest():
-    plain = pull_off_force(run(LennardJones(1, 1), material=SOLID))
-    found = pull_off_force(run(vt.SaturatingAgeing(1, 1, 1.0, 1e-9), material=SOLID))
+    plain = vt.pull_off_force(run(vt.LennardJones(1, 1), material=SOLID))
+    found = vt.pull_off_force(run(vt.SaturatingAgeing(1, 1, 1.0, 1e-9), material=SOLID))
     assert found == pytest.approx(plain, rel=1e-4)
 
 
@@ -95,14 +86,12 @@ def test_the_force_follows_the_dwell():
     law = vt.LogarithmicAgeing(1, 1, 0.01, 0.08)
     for dwell in (0.1, 10.0):
         grown = 1 + float(law.growth_after(dwell))
-        strong = pull_off_force(run(LennardJones(1, 1), tabor=3.0 * grown ** (2 / 3)))
-        found = pull_off_force(pressed(law, dwell, speed=1e5))
+        strong = vt.pull_off_force(run(vt.LennardJones(1, 1), tabor=3.0 * grown ** (2 / 3)))
+        found = vt.pull_off_force(pressed(law, dwell, speed=1e5))
         assert found == pytest.approx(grown * strong, rel=6e-3)
 
 
 # --- energy, order
-
-
 def test_energy_is_conserved_with_the_heat_of_the_interface():
     law = vt.SaturatingAgeing(1, 1, 1.0, 1.0)
     result = pressed(law, 1.0, speed=10.0, material=SOLID, until="detached")
@@ -133,6 +122,6 @@ def test_a_crack_that_turns_creates_no_energy():
 def test_a_finer_run_confirms_the_stated_error():
     law = vt.SaturatingAgeing(1, 1, 1.0, 1.0)
     usual = pressed(law, 0.5, material=SOLID, speed=30.0, estimate_error=True)
-    fine = pull_off_force(pressed(law, 0.5, material=SOLID, speed=30.0, accuracy=5e-4))
+    fine = vt.pull_off_force(pressed(law, 0.5, material=SOLID, speed=30.0, accuracy=5e-4))
     assert usual.error_estimate is not None
-    assert abs(pull_off_force(usual) / fine - 1) < usual.error_estimate["force"] < 1e-2
+    assert abs(vt.pull_off_force(usual) / fine - 1) < usual.error_estimate["force"] < 1e-2

@@ -7,7 +7,6 @@ import pytest
 from scipy.optimize import brentq
 
 import viscotack as vt
-from viscotack.model.geometry import Cone, HalfSpace, Sphere
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.simulate.settings import Settings
 from viscotack.theory.elastic import indenter, on_body
@@ -22,22 +21,22 @@ RADII = np.geomspace(1e-3, 300, 7)
 SOLID = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 
 
-@pytest.mark.parametrize("shape", [Sphere(1.0), Cone(1.0)], ids=["sphere", "cone"])
+@pytest.mark.parametrize("shape", [vt.Sphere(1.0), vt.Cone(1.0)], ids=["sphere", "cone"])
 def test_the_matrix_of_the_half_space_gives_its_closed_forms(shape):
     theory = {"shape": shape, **SOLID}
     depth = np.asarray(indenter.bare_depth(RADII, shape=shape))
     force = np.asarray(indenter.force(RADII, **theory))
-    assert on_body.bare_depth(RADII, shape, HalfSpace()) == pytest.approx(depth, rel=1e-4)
+    assert on_body.bare_depth(RADII, shape, vt.HalfSpace()) == pytest.approx(depth, rel=1e-4)
     scale = np.abs(force) + np.asarray(indenter.force(RADII, **theory | {"work_of_adhesion": 0.0}))
-    found = on_body.force(RADII, shape, HalfSpace(), 1.0)
+    found = on_body.force(RADII, shape, vt.HalfSpace(), 1.0)
     assert np.max(np.abs(found - force) / scale) < 2e-4
     drawn = np.sqrt(2 * np.pi * RADII)
-    assert on_body.drawn(RADII, shape, HalfSpace(), 1.0) == pytest.approx(drawn, rel=1e-5)
+    assert on_body.drawn(RADII, shape, vt.HalfSpace(), 1.0) == pytest.approx(drawn, rel=1e-5)
 
 
 def test_jkr_on_a_foundation_is_each_spring_for_itself():
     # a spring detaches when it holds the work of adhesion: b w = (E*/2) drawn^2
-    b, theory = 0.3, {"shape": Sphere(1.0), "body": FOUNDATION(0.3), **SOLID}
+    b, theory = 0.3, {"shape": vt.Sphere(1.0), "body": FOUNDATION(0.3), **SOLID}
     drawn = np.sqrt(2 * b)
     depth = RADII**2 / 2 - drawn
     assert np.asarray(indenter.depth(RADII, **theory)) == pytest.approx(depth, rel=1e-9)

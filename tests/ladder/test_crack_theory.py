@@ -7,6 +7,7 @@ from scipy.special import gamma as gamma_function
 
 import viscotack as vt
 from dimensionless import last_slope
+from solids import creep_power_law
 from viscotack.theory import CrackLaw, greenwood, persson_brener
 from viscotack.theory.crack.law import THEORIES
 
@@ -14,9 +15,7 @@ MODULI = dict(rubbery_modulus=1.2e6, glassy_modulus=3e7, poisson_ratio=0.5)
 SOLIDS = [
     vt.StandardSolid(**MODULI, tau0=0.02),
     vt.Prony(
-        rubbery_modulus=1.2e6,
-        branches=((2e6, 1.0), (8e6, 1e-2), (1.9e7, 1e-5)),
-        poisson_ratio=0.5,
+        rubbery_modulus=1.2e6, branches=((2e6, 1.0), (8e6, 1e-2), (1.9e7, 1e-5)), poisson_ratio=0.5
     ),
     vt.RetardationPowerLaw(**MODULI, exponent=0.22, tau0=0.019),
     vt.RetardationPowerLaw(**MODULI, exponent=1.6, tau0=0.019),
@@ -30,13 +29,7 @@ SPEEDS = [1e-3, 0.3, 20.0, 1e5]
 
 
 def narrow(exponent, modulus_ratio):
-    return vt.RetardationPowerLaw(
-        rubbery_modulus=1e6,
-        glassy_modulus=1e6 / modulus_ratio,
-        exponent=exponent,
-        tau0=1e-3,
-        poisson_ratio=0.5,
-    )
+    return creep_power_law(1e6, 1e6 / modulus_ratio, exponent, 1e-3, 0.5)
 
 
 @solids

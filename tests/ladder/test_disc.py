@@ -30,8 +30,6 @@ def pulled(case, accuracy=1e-2):
 
 
 # --- 1 identity -----------------------------------------------------------------------------------
-
-
 def test_the_most_a_disc_bears_is_the_smaller_limit():
     a = disc.crossover_radius(**SOLID, strength=50e3)
     kendall = disc.pull_off_force(contact_radius=a, **SOLID)
@@ -77,8 +75,6 @@ def test_a_disc_answers_with_its_stiffness():
 
 
 # --- 2 limit --------------------------------------------------------------------------------------
-
-
 def test_a_small_disc_comes_off_at_the_strength_of_its_interface():
     # pi a^2 sigma0 over 1.5 pi R dg0 is mu/1.5 for sigma0 = dg0/h0
     tabor = 0.05
@@ -103,8 +99,6 @@ def test_a_rounded_edge_pulls_like_its_own_jkr_contact():
 
 
 # --- the simulation -------------------------------------------------------------------------------
-
-
 def test_a_relaxing_solid_holds_a_disc_harder_and_accounts_for_its_energy():
     result = vt.solve(groups(material=RELAXING, rate=2.0), accuracy=1e-2)
     assert 1.1 < result.pull_off_force / KENDALL < 2.0

@@ -42,8 +42,6 @@ def uniform_displacement(r, c, strength, contact_modulus):
 
 
 # Hertz ----------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("position", [1e-6, 0.999e-4, 1.7e-4])
 def test_hertz_surface_is_what_its_pressure_does_to_the_half_space(position):
     u = disc_displacement(
@@ -69,8 +67,6 @@ def test_hertz_force_is_the_derivative_of_its_energy():
 
 
 # JKR ------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("position", [1e-6, 0.999e-4, 1.7e-4])
 def test_jkr_surface_is_what_its_pressure_does_to_the_half_space(position):
     u = disc_displacement(
@@ -106,8 +102,6 @@ def test_jkr_branches_return_depth_and_force():
 
 
 # DMT and Bradley ------------------------------------------------------------------------------
-
-
 def test_dmt_force_is_the_derivative_of_its_energy():
     # U = (8/15) E* sqrt(R) depth^(5/2) - 2 pi R w depth
     R, E, w = BEAD.values()
@@ -136,8 +130,6 @@ def test_bradley_force_is_the_integral_of_the_traction():
 
 
 # Maugis ---------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("ratio", [1.2, 1.7, 4.0])
 def test_maugis_state_solves_the_contact_problem(ratio):
     R, E, w, s = TIP.values()

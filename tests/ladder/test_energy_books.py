@@ -19,9 +19,7 @@ LOOP = (Approach(1.0, AtForce(4.0)), Retract(1.0, AtForce(2.0)))
 
 def sphere(*moves, tabor=0.5, material=ELASTIC, **more):
     start = more.pop("start", AtForce(2.0))
-    return Groups(
-        tabor=tabor, material=material, start=start, moves=moves, **({"rate": None} | more)
-    )
+    return Groups(tabor, material, start, moves=moves, **{"rate": None} | more)
 
 
 def run(groups, **options):

@@ -24,12 +24,6 @@ def law(tabor, material=ELASTIC):
     return vt.LennardJones(work_of_adhesion=work, equilibrium_gap=GAP)
 
 
-def stated(found, name):
-    """Return a stated error."""
-    assert found.error_estimate is not None
-    return found.error_estimate[name]
-
-
 def both(tabor, material, test, body):
     """Pull a sphere on the grid and as a contact of revolution; forces in 1.5 pi R dg."""
     traction = law(tabor, material)
@@ -176,9 +170,9 @@ def test_stated_errors_hold_against_a_better_accuracy():
     problem = rough()
     found, better = pull(problem), pull(problem, accuracy=2e-4, estimate_error=False)
     away = abs(found.pull_off_force / better.pull_off_force - 1)
-    assert away < stated(found, "force") < 0.03
+    assert away < found.error_estimate["force"] < 0.03
     away = abs(found.work_of_separation / better.work_of_separation - 1)
-    assert away < stated(found, "work") < 0.06
+    assert away < found.error_estimate["work"] < 0.06
 
 
 def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
@@ -199,7 +193,7 @@ def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
     at = found.at_pull_off
     assert (found.patches[at], found.area[at]) == (4, pytest.approx(16 * pixel**2))
     off = abs(found.pull_off_force / fine.pull_off_force - 1)
-    assert 0.15 < off < stated(found, "force") < 1.2 * off
+    assert 0.15 < off < found.error_estimate["force"] < 1.2 * off
 
 
 @pytest.mark.parametrize(

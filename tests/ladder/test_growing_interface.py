@@ -9,14 +9,12 @@ import viscotack as vt
 from dimensionless import ELASTIC, SOLID
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import AtDepth
-from viscotack.model.traction import Eyring, GentSchultz, LennardJones
 from viscotack.model.traction.resting import reduced
-from viscotack.result.observables import pull_off_force
 from viscotack.simulate import Settings
 
-REST = LennardJones(0.1523, 200e-9)
-POWER = GentSchultz.of(REST, reference_speed=1e-3, exponent=0.4)
-BONDS = Eyring.of(REST, reference_speed=1e-6, sensitivity=0.2)
+REST = vt.LennardJones(0.1523, 200e-9)
+POWER = vt.GentSchultz.of(REST, reference_speed=1e-3, exponent=0.4)
+BONDS = vt.Eyring.of(REST, reference_speed=1e-6, sensitivity=0.2)
 laws = pytest.mark.parametrize("law", [POWER, BONDS], ids=["power", "bonds"])
 GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 200e-9
 
@@ -27,8 +25,6 @@ def unloaded(law, tabor=1.0, depth=2.0, material=ELASTIC, rate=1.0, **given):
 
 
 # --- the law
-
-
 @laws
 def test_only_surfaces_that_attract_and_open_feel_the_speed(law):
     at_rest = REST.traction(GAPS)
@@ -73,46 +69,36 @@ def test_a_reduced_law_counts_speeds_in_gaps_per_unit_of_time(law):
 
 
 # --- in words, files, records
-
-
 def test_groups_go_to_si_and_back():
-    law = GentSchultz(1, 1, 7.0, 0.4)
+    law = vt.GentSchultz(1, 1, 7.0, 0.4)
     groups = Groups(tabor=2.0, material=SOLID, start=AtDepth(2.0), rate=3.0, traction=law)
     problem = groups.in_si(
-        radius=5e-3,
-        contact_modulus=2e6,
-        equilibrium_gap=1e-6,
-        time_unit=0.02,
-        poisson_ratio=0.5,
+        radius=5e-3, contact_modulus=2e6, equilibrium_gap=1e-6, time_unit=0.02, poisson_ratio=0.5
     )
     assert problem.traction.reference_speed == pytest.approx(7.0 * 1e-6 / 0.02)
     assert problem.groups().traction.reference_speed == pytest.approx(7.0)
 
 
 # --- limits
-
-
 def test_a_rigid_sphere_pulls_off_with_bradleys_force_and_the_growth_of_its_speed():
     # mu -> 0: all gaps open with the speed of the sphere
-    for law in (GentSchultz(1, 1, 0.5, 0.4), Eyring(1, 1, 0.1, 0.3)):
+    for law in (vt.GentSchultz(1, 1, 0.5, 0.4), vt.Eyring(1, 1, 0.1, 0.3)):
         result = unloaded(law, tabor=1e-5, depth=0.2, accuracy=1e-2)
         bradley = 4 / 3 * (1 + float(law.growth(1.0)))
-        assert pull_off_force(result) == pytest.approx(bradley, rel=1e-2, abs=0)
+        assert vt.pull_off_force(result) == pytest.approx(bradley, rel=1e-2, abs=0)
         assert result.energy_residual < 5e-3
 
 
 def test_slow_or_weak_growth_is_the_law_at_rest():
-    plain = pull_off_force(unloaded(LennardJones(1, 1), material=SOLID))
-    for law in (GentSchultz(1, 1, 1e14, 1.0), Eyring(1, 1, 1.0, 1e-9)):
-        found = pull_off_force(unloaded(law, material=SOLID))
+    plain = vt.pull_off_force(unloaded(vt.LennardJones(1, 1), material=SOLID))
+    for law in (vt.GentSchultz(1, 1, 1e14, 1.0), vt.Eyring(1, 1, 1.0, 1e-9)):
+        found = vt.pull_off_force(unloaded(law, material=SOLID))
         assert found == pytest.approx(plain, rel=5e-4, abs=0)
 
 
 # --- energy, order, stability
-
-
 def test_energy_is_conserved_with_the_heat_of_the_interface():
-    law = GentSchultz(1, 1, 1.0, 0.5)
+    law = vt.GentSchultz(1, 1, 1.0, 0.5)
     result = unloaded(law, material=SOLID, until="detached", accuracy=5e-3)
     energy = result.energy
     assert np.all(np.diff(energy.interface_heat) >= 0) and energy.interface_heat[-1] > 0
@@ -126,8 +112,8 @@ def test_energy_is_conserved_with_the_heat_of_the_interface():
 
 
 def test_an_elastic_contact_that_would_jump_runs_at_a_finite_speed():
-    plain = unloaded(LennardJones(1, 1), tabor=2.0, until="detached", accuracy=1e-2)
-    grown = unloaded(GentSchultz(1, 1, 10.0, 0.5), tabor=2.0, until="detached", accuracy=1e-2)
+    plain = unloaded(vt.LennardJones(1, 1), tabor=2.0, until="detached", accuracy=1e-2)
+    grown = unloaded(vt.GentSchultz(1, 1, 10.0, 0.5), tabor=2.0, until="detached", accuracy=1e-2)
     assert [event.kind for event in plain.events] == ["jump out of contact"]
     assert not grown.events
     assert np.nanmax(grown.edge_speed) > 10 * grown.edge_speed[np.argmin(grown.force)]
@@ -145,7 +131,7 @@ def test_steps_are_of_second_order():
             imbalance=usual.imbalance * part**2,
             step_error=usual.step_error * part**2,
         )
-        return pull_off_force(unloaded(GentSchultz(1, 1, 1.0, 0.5), settings=settings))
+        return vt.pull_off_force(unloaded(vt.GentSchultz(1, 1, 1.0, 0.5), settings=settings))
 
     coarse, middle, fine = force(2.0), force(1.0), force(0.5)
     order = np.log2(abs((coarse - middle) / (middle - fine)))
@@ -153,8 +139,8 @@ def test_steps_are_of_second_order():
 
 
 def test_a_finer_run_confirms_the_stated_error():
-    law = GentSchultz(1, 1, 1.0, 0.5)
+    law = vt.GentSchultz(1, 1, 1.0, 0.5)
     usual = unloaded(law, tabor=2.0, depth=5.0, estimate_error=True)
-    fine = pull_off_force(unloaded(law, tabor=2.0, depth=5.0, accuracy=6e-4))
-    off = abs(pull_off_force(usual) / fine - 1)
+    fine = vt.pull_off_force(unloaded(law, tabor=2.0, depth=5.0, accuracy=6e-4))
+    off = abs(vt.pull_off_force(usual) / fine - 1)
     assert off < usual.error_estimate["force"] < 1e-2

@@ -7,6 +7,7 @@ import pytest
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID, power_law, punch, sphere
+from solids import relaxation_power_law
 from viscotack.simulate import Settings
 from viscotack.simulate.solver import contact_of
 from viscotack.theory import jkr, lennard_jones, persson_brener
@@ -26,8 +27,6 @@ def kinds(result):
 
 
 # --- limits: one protocol becomes another -------------------------------------------------------
-
-
 @pytest.mark.parametrize(("make", "depth"), [(sphere, 5.0), (punch, 1.0)], ids=["sphere", "punch"])
 def test_a_slow_approach_is_the_relaxed_start_and_a_stiff_spring_a_rigid_machine(make, depth):
     start = vt.AtDepth(depth)
@@ -63,8 +62,6 @@ def test_a_dwell_relaxes_the_force_to_that_of_the_relaxed_contact():
 
 
 # --- starts by force --------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("make", "size"),
     [
@@ -89,8 +86,6 @@ def test_more_than_the_elastic_pull_off_force_is_no_start():
 
 
 # --- dead loads -------------------------------------------------------------------------------
-
-
 def elastic_pull_off(tabor):
     return vt.pull_off_force(
         run(sphere(vt.AtDepth(3.0), rate=1.0, tabor=tabor, material=ELASTIC), "pull-off")
@@ -130,11 +125,7 @@ def crack_time(load, tabor, material):
 
 
 @pytest.mark.parametrize(
-    ("material", "tabor", "load"),
-    [
-        (SOLID, 8.0, 3.0),
-        (power_law(), 3.24, 1.3),
-    ],
+    ("material", "tabor", "load"), [(SOLID, 8.0, 3.0), (power_law(), 3.24, 1.3)]
 )
 def test_a_dead_load_lets_go_after_the_time_of_persson_and_brener(material, tabor, load):
     # the forces have a range: a load counts beside the elastic pull-off force of this mu. What is
@@ -183,8 +174,6 @@ def test_a_force_held_while_the_surfaces_are_apart_stops_the_run():
 
 
 # --- histories --------------------------------------------------------------------------------
-
-
 def six(make, shallow):
     """Return the pull-off forces of the six protocols of Table 3.1, three for each depth.
 
@@ -303,8 +292,6 @@ def test_moves_end_where_they_are_to_end():
 
 
 # --- whatever the machine does ------------------------------------------------------------------
-
-
 def random_test(seed):
     """Return a problem with a random history, of a sphere or a punch."""
     random = np.random.default_rng(seed)
@@ -364,9 +351,7 @@ def test_random_histories_end_well():
 def test_a_viscoelastic_solid_behind_a_soft_spring_keeps_its_history_until_the_jump():
     # the drive goes a thousand times as far as the contact; a slow load on a contact that is wide
     # beside the range of its law is borne by the relaxed solid, and so until that has crept
-    solid = vt.RelaxationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=260.0, exponent=0.8, tau0=1.0, poisson_ratio=0.0
-    )
+    solid = relaxation_power_law(1.0, 260.0, 0.8, 1.0, 0.0)
     law = vt.Exponential(1.0, 1.0, 0.0037)
     soft = sphere(
         vt.AtDepth(0.096), tabor=0.0023, material=solid, rate=12.65, stiffness=0.157, traction=law

@@ -9,7 +9,6 @@ from viscotack.model.traction import Dugdale, Exponential, LennardJones, Tabulat
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.simulate import solve
 from viscotack.simulate.interface import AtNodes, OnPanels
-from viscotack.theory import maugis
 
 # strong and short, with a corner in its stiffness where it ends
 TABLE = Tabulated.of_points(
@@ -70,15 +69,6 @@ def test_a_short_strong_law_pulls_off_near_jkr():
     # converged, at an accuracy of 5e-4
     result = pulled(Exponential(1.0, 1.0, 0.1), 3.0, estimate_error=False)
     assert pull_off_force(result) == pytest.approx(1.0019, rel=1e-3)
-
-
-@pytest.mark.march
-def test_a_sharp_step_has_the_force_of_maugis():
-    result = pulled(Dugdale(1.0, 1.0, fall=1e-3), 1.0, estimate_error=False)
-    case = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0, "strength": 1.0}
-    expected = maugis.pull_off_force(**case) / (1.5 * np.pi)
-    assert pull_off_force(result) == pytest.approx(expected, rel=1.5e-3)
-    assert result.statistics["nodes"] < 250
 
 
 @pytest.mark.march

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack as vt
+from solids import creep_power_law
 from viscotack.model.materials.conversion import (
     PronyForm,
     prony_form,
@@ -22,8 +23,6 @@ PDMS = published("pdms-10-1").material
 
 
 # ---- rung 1: identities ------------------------------------------------------------------------
-
-
 BRANCHES = st.lists(
     st.tuples(st.floats(3, 10), st.floats(-12, 4)),
     min_size=1,
@@ -86,13 +85,9 @@ def test_temperature_multiplies_times_by_the_shift_factor():
 
 
 # ---- rung 4: the simulation is the judge -------------------------------------------------------
-
-
 def test_a_prony_form_holds_as_hard_as_its_power_law():
     n, k, rate = 0.2207, 1.458 / 3089, 1e3
-    solid = vt.RetardationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=1 / k, exponent=n, tau0=1.0, poisson_ratio=0.0
-    )
+    solid = creep_power_law(1.0, 1 / k, n, 1.0, 0.0)
     series = prony_form(solid, frequencies=(1e-3, 1e3 * rate)).material
     # the same mesh and steps: what differs is the material
     force = [
@@ -132,9 +127,7 @@ def test_a_prony_form_has_a_tolerance_between_0_and_1_and_ascending_frequencies(
     solid = vt.StandardSolid(rubbery_modulus=E0, glassy_modulus=3 * E0, tau0=1.0, poisson_ratio=0.3)
     form = prony_form(solid, frequencies=(1.0, 2.0))
     assert form == PronyForm(material=relaxation_form(solid), error=0.0, frequencies=(1.0, 2.0))
-    stiff = vt.RetardationPowerLaw(
-        rubbery_modulus=E0, glassy_modulus=E0, exponent=0.5, tau0=1.0, poisson_ratio=0.3
-    )
+    stiff = creep_power_law(E0, E0, 0.5, 1.0, 0.3)
     with pytest.raises(vt.InputError, match="does not relax"):
         prony_form(stiff, frequencies=(1.0, 2.0))
     with pytest.raises(vt.InputError, match="above the tolerance 1e-16"):

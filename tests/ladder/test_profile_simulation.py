@@ -26,12 +26,7 @@ def units(exponent):
 
 def tip(exponent, tabor, *, start, material=ELASTIC, rate=1.0, **others):
     return vt.Groups(
-        tabor=tabor,
-        material=material,
-        start=start,
-        rate=rate,
-        geometry=vt.PowerLawProfile(1 / exponent, exponent),
-        **others,
+        tabor, material, start, rate, geometry=vt.PowerLawProfile(1 / exponent, exponent), **others
     )
 
 
@@ -40,14 +35,9 @@ def pull(groups, **settings):
 
 
 # --- identities -----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("start", "moves"),
-    [
-        (vt.AtRadius(1.8), ()),
-        (vt.Apart(8.0), (vt.Approach(30.0, vt.AtForce(1.0)),)),
-    ],
+    [(vt.AtRadius(1.8), ()), (vt.Apart(8.0), (vt.Approach(30.0, vt.AtForce(1.0)),))],
     ids=["radius", "approach"],
 )
 def test_the_square_is_the_sphere(start, moves):
@@ -80,8 +70,6 @@ def test_energy_audit_closes_for_every_shape(exponent):
 
 
 # --- limits ---------------------------------------------------------------------------------
-
-
 @exponents
 def test_a_stiff_tip_pulls_off_as_bradley_has_it(exponent):
     r"""The most of the rigid force over the gap at the tip, with the area between two gaps."""
@@ -139,8 +127,6 @@ def test_a_relaxed_contact_is_as_deep_and_wide_as_jkr_has_it(exponent):
 
 
 # --- order ----------------------------------------------------------------------------------
-
-
 def test_the_error_of_a_cone_falls_with_the_accuracy():
     groups = tip(1.0, 0.3, start=vt.AtDepth(1.5), material=SOLID, rate=3.0)
     coarse, fine, finest = (pull(groups, accuracy=x) for x in (4e-3, 1e-3, 1.25e-4))

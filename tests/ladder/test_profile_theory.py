@@ -35,8 +35,6 @@ def derivative(function, x):
 
 
 # Profiles -------------------------------------------------------------------------------------
-
-
 @shapes
 def test_every_profile_is_as_stiff_as_a_punch_of_its_radius(exponent):
     # dP1/d(delta1) = 2 E* a, from which the lift of any shape follows
@@ -105,8 +103,6 @@ def test_a_steep_profile_tends_to_the_flat_punch():
 
 
 # Transition -----------------------------------------------------------------------------------
-
-
 def test_the_transition_equation_is_jkr_at_one_and_dmt_at_zero():
     for theory, alpha in ((jkr, 1.0), (dmt, 0.0)):
         P_end = theory.pull_off_force(radius=1e-6, work_of_adhesion=0.05)
@@ -140,8 +136,6 @@ def test_transition_number_and_maugis_parameter_are_inverse(lam):
 
 
 # Adhesion map ---------------------------------------------------------------------------------
-
-
 def test_on_the_hertz_boundary_tension_is_five_per_cent_of_the_load():
     mu, load = 2.0, adhesion_map.hertz_load(2.0)
     lam = maugis.parameter_from_tabor(mu)

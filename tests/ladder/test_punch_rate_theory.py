@@ -31,8 +31,6 @@ LAW = PAD.crack_law("greenwood", material=SLS)
 
 
 # Amplification, limited by size ---------------------------------------------------------------
-
-
 @solids
 @theories
 def test_size_takes_the_place_of_the_glassy_end(theory, material):
@@ -74,8 +72,6 @@ def test_crack_speed_is_the_inverse_of_the_amplification(theory, material):
 
 
 # What a curve says ----------------------------------------------------------------------------
-
-
 def test_surface_energy_is_the_inverse_of_the_pull_off_stress():
     b = np.geomspace(1e-5, 1.0, 12)
     for base in (FREE, vt.Bonded(poisson_ratio=0.4)):
@@ -107,15 +103,9 @@ def test_work_of_separation_of_a_rigid_punch_is_the_work_of_adhesion():
 
 
 # Motion ---------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("part", "base", "tolerance"),
-    [
-        (0.2, FREE, 1e-5),
-        (5.0, FREE, 8e-3),
-        (1.0, vt.Bonded(poisson_ratio=0.45), 1e-2),
-    ],
+    [(0.2, FREE, 1e-5), (5.0, FREE, 8e-3), (1.0, vt.Bonded(poisson_ratio=0.45), 1e-2)],
 )
 @pytest.mark.parametrize("speed", [1e-6, 1e-2])
 def test_motion_is_that_of_the_edges_by_their_energy(part, base, tolerance, speed):
@@ -195,8 +185,6 @@ def test_pull_off_is_near_the_simulated_one():
 
 
 # Design ---------------------------------------------------------------------------------------
-
-
 def test_map_has_the_regimes_of_the_slow_and_of_the_fast_pad():
     b0, fast, b1 = punch.regime_thicknesses(PAD, modulus_ratio=0.05)
     b = np.array([0.8 * b0, 1.3 * b0, 0.8 * fast, 1.3 * fast, 0.9 * b1, 1.1 * b1])
@@ -216,13 +204,9 @@ def test_map_has_the_regimes_of_the_slow_and_of_the_fast_pad():
 
 
 # Verified values, E0* = h0 = tau = 1 ------------------------------------------------------------
-
-
 def unit(strength):
     return dict(
-        contact_modulus=1.0,
-        work_of_adhesion=9 * np.sqrt(3) / 16 * strength,
-        strength=strength,
+        contact_modulus=1.0, work_of_adhesion=9 * np.sqrt(3) / 16 * strength, strength=strength
     )
 
 

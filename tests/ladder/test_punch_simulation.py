@@ -34,8 +34,6 @@ def run(groups=THESIS, *, settings=None, accuracy=2e-3, until="pull-off", **chan
 
 
 # --- identities -----------------------------------------------------------------------------
-
-
 def test_energy_audit_of_a_punch_closes_with_every_term_at_work():
     result = run(until="detached", thickness=32.42, rate=10.0)
     energy = result.energy
@@ -79,8 +77,6 @@ def test_surface_energy_is_equation_3_30_of_the_thesis():
 
 
 # --- limits ---------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("base", [vt.Frictionless(), vt.Bonded(poisson_ratio=0.3)], ids=repr)
 def test_a_thin_layer_tends_to_a_foundation_linearly_in_its_thickness(base):
     # appendix I: every point for itself, h - 1 + delta = p b/(zeta E*), pressure of the law
@@ -159,8 +155,6 @@ def test_a_punch_can_be_pulled_to_a_ligament_and_held_there():
 
 
 # --- orders ---------------------------------------------------------------------------------
-
-
 def test_the_punch_is_second_order_in_time():
     base = dataclasses.replace(
         Settings.for_accuracy(5e-3),
@@ -192,8 +186,6 @@ def test_the_punch_is_second_order_in_the_mesh():
 
 
 # --- the plain twin -------------------------------------------------------------------------
-
-
 def test_triangles_of_the_plain_twin_are_the_reference_ones():
     entries = [e for e in VALUES if e["equation"].startswith("3.19") and "M" in e["inputs"]]
     assert len(entries) > 5

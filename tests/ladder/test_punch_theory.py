@@ -25,8 +25,6 @@ def without_energy(case):
 
 
 # Closed forms ---------------------------------------------------------------------------------
-
-
 @bases
 def test_thin_layer_comes_off_where_its_elastic_energy_pays(base):
     # the energy under the punch, over a length, is a E* delta^2 / (c b); half its slope by a is w
@@ -90,8 +88,6 @@ def test_thin_layer_law_warns_of_a_layer_near_incompressible_and_refuses_one():
 
 
 # The exact curve ------------------------------------------------------------------------------
-
-
 @bases
 def test_energy_released_is_the_slope_of_the_stiffness(base):
     # the stiffness from the force, the energy from the stress intensity at the edges:
@@ -176,8 +172,6 @@ def test_thickness_is_the_inverse_of_the_stress(base):
 
 
 # Verified values ------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("row", reference("exact flat punch on layer (not in thesis)"))
 def test_the_exact_curve_gives_the_verified_value(row):
     b, unit = row["inputs"]["b/a"], dict(half_width=1.0, contact_modulus=1.0, base=FREE)

@@ -6,52 +6,34 @@ import numpy as np
 import pytest
 
 from dimensionless import last_slope
-from viscotack.model.materials import RetardationPowerLaw, StandardSolid
-from viscotack.theory import (
-    CrackLaw,
-    bounds,
-    crack_regimes,
-    dmt,
-    empirical,
-    jkr,
-    lennard_jones,
-    persson_brener,
-    rate,
-    unloading,
-)
+from solids import creep_power_law
+from viscotack import theory
+from viscotack.model.materials import StandardSolid
 
 LENS = dict(radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15)
-FORCE = jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.15)
+FORCE = theory.jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.15)
 SOLID = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 
 
 def rubber(exponent, modulus_ratio):
-    return RetardationPowerLaw(
-        rubbery_modulus=1.5e6,
-        glassy_modulus=1.5e6 / modulus_ratio,
-        exponent=exponent,
-        tau0=0.02,
-        poisson_ratio=0.5,
-    )
+    return creep_power_law(1.5e6, 1.5e6 / modulus_ratio, exponent, 0.02, 0.5)
 
 
 # Regimes of the crack -------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("exponent", [0.4, 1.0, 2.6])
 def test_slow_cracks_dissipate_in_proportion_to_their_speed(exponent):
     v = np.array([1e-3, 1e-4])
-    exact = persson_brener.amplification(v, material=rubber(exponent, 0.1))
-    slow = crack_regimes.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
+    exact = theory.persson_brener.amplification(v, material=rubber(exponent, 0.1))
+    slow = theory.crack_regimes.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
     assert slow == pytest.approx(exact, rel=1e-5, abs=0)
     assert last_slope(v, exact - slow) == pytest.approx(3, abs=0.02)
 
 
 @pytest.mark.parametrize("exponent", [0.3, 0.6, 1.7])
 def test_the_steepest_slope_tends_to_that_of_the_intermediate_regime(exponent):
-    limit = crack_regimes.intermediate_exponent(exponent)
+    limit = theory.crack_regimes.intermediate_exponent(exponent)
     rest = [
-        limit - crack_regimes.steepest(material=rubber(exponent, k)).exponent
+        limit - theory.crack_regimes.steepest(material=rubber(exponent, k)).exponent
         for k in (1e-2, 1e-4, 1e-12)
     ]
     assert rest[0] > rest[1] > abs(rest[2])
@@ -60,48 +42,48 @@ def test_the_steepest_slope_tends_to_that_of_the_intermediate_regime(exponent):
 
 def test_the_power_law_of_the_intermediate_range_is_a_tangent():
     material = rubber(0.6, 0.1)
-    law = crack_regimes.steepest(material=material)
-    gamma = persson_brener.amplification(law.speed, material=material)
+    law = theory.crack_regimes.steepest(material=material)
+    gamma = theory.persson_brener.amplification(law.speed, material=material)
     assert law.coefficient * law.speed**law.exponent == pytest.approx(gamma, rel=1e-12, abs=0)
-    found = crack_regimes.local_exponent(law.speed * np.array([0.3, 1.0, 3.0]), material=material)
+    found = theory.crack_regimes.local_exponent(
+        law.speed * np.array([0.3, 1.0, 3.0]), material=material
+    )
     assert found[1] == pytest.approx(law.exponent, rel=1e-9, abs=0)
     assert found[1] > found[0] and found[1] > found[2]
     with pytest.raises(ValueError, match="elastic"):
-        crack_regimes.steepest(material=rubber(0.6, 1.0))
+        theory.crack_regimes.steepest(material=rubber(0.6, 1.0))
 
 
 def test_local_exponent_is_the_integral_back_to_the_amplification():
     x, weights = np.polynomial.legendre.leggauss(60)
     low, high = np.log(1e-2), np.log(1e3)
     v = np.exp((low + high) / 2 + (high - low) / 2 * x)
-    rise = np.sum(crack_regimes.local_exponent(v, material=SOLID) * weights) * (high - low) / 2
-    ends = np.log(persson_brener.amplification(np.exp([low, high]), material=SOLID))
+    rise = (
+        np.sum(theory.crack_regimes.local_exponent(v, material=SOLID) * weights) * (high - low) / 2
+    )
+    ends = np.log(theory.persson_brener.amplification(np.exp([low, high]), material=SOLID))
     assert rise == pytest.approx(ends[1] - ends[0], rel=1e-9, abs=0)
 
 
 # Rate -----------------------------------------------------------------------------------------
-
-
 def test_the_fit_is_a_power_law_and_warns_away_from_its_tabor_number():
     r = np.array([1e-2, 1.0, 1e6])
-    speed = rate.crack_speed(r, tabor=3.24)
+    speed = theory.rate.crack_speed(r, tabor=3.24)
     assert speed[1] == pytest.approx(2.887, rel=1e-15, abs=0)
     assert last_slope(r, speed) == pytest.approx(1.171, rel=1e-12, abs=0)
     with pytest.warns(UserWarning, match="this one is 0.8"):
-        rate.crack_speed(r, tabor=0.8)
+        theory.rate.crack_speed(r, tabor=0.8)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        rate.crack_speed(r, tabor=3.0)
+        theory.rate.crack_speed(r, tabor=3.0)
     with pytest.raises(ValueError, match="not negative"):
-        rate.crack_speed(-1.0, tabor=3.24)
+        theory.rate.crack_speed(-1.0, tabor=3.24)
 
 
 # Unloading ------------------------------------------------------------------------------------
-
-
 def pulled(speed, material=SOLID, depth=5e-5):
-    law = CrackLaw(theory="persson-brener", material=material, tip_length=1e-6)
-    return unloading.retraction(depth, law, speed=speed, **LENS)
+    law = theory.CrackLaw(theory="persson-brener", material=material, tip_length=1e-6)
+    return theory.unloading.retraction(depth, law, speed=speed, **LENS)
 
 
 @pytest.mark.parametrize(
@@ -122,7 +104,7 @@ def test_every_state_of_the_unloading_is_a_moving_crack_in_a_relaxed_solid(mater
         curve.amplification < 1 + 0.99 * (1 / material.modulus_ratio - 1)
     )
     v = curve.edge_speed[free] * material.time_unit / 1e-6
-    law = persson_brener.amplification(v, material=material)
+    law = theory.persson_brener.amplification(v, material=material)
     assert curve.amplification[free] == pytest.approx(law, rel=1e-5, abs=0)
     # and the edge moves with that speed: a over time, second order in the steps
     t = curve.time[free]
@@ -137,8 +119,10 @@ def test_every_state_of_the_unloading_is_a_moving_crack_in_a_relaxed_solid(mater
 def test_slow_unloading_is_jkr(depth):
     curve = pulled(1e-14, depth=depth)
     assert curve.pull_off_force == pytest.approx(FORCE, rel=5e-5, abs=0)
-    held = curve.depth > jkr.instability(**LENS).depth * 0.9
-    expected = jkr.force(jkr.contact_radius_at_depth(curve.depth[held], **LENS), **LENS)
+    held = curve.depth > theory.jkr.instability(**LENS).depth * 0.9
+    expected = theory.jkr.force(
+        theory.jkr.contact_radius_at_depth(curve.depth[held], **LENS), **LENS
+    )
     assert np.max(np.abs(curve.force[held] - expected)) < 1e-4 * FORCE
 
 
@@ -168,9 +152,7 @@ def test_unloading_agrees_with_the_simulation_where_the_bulk_is_relaxed():
 
     # what is left is the Tabor number (3 % at rest)
     mu, alpha = 3.24, np.pi / 9
-    material = RetardationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=10.0, exponent=1.6, tau0=1.0, poisson_ratio=0.0
-    )
+    material = creep_power_law(1.0, 10.0, 1.6, 1.0, 0.0)
     for speed, margin in ((0.1, 0.05), (10.0, 0.04)):
         groups = vt.Groups(tabor=mu, material=material, start=vt.AtDepth(73.0), rate=speed)
         simulated = vt.pull_off_force(
@@ -179,12 +161,12 @@ def test_unloading_agrees_with_the_simulation_where_the_bulk_is_relaxed():
         # R = w = E* = 1
         h0 = 1 / mu
         strength = 16 / (9 * np.sqrt(3)) / h0
-        l0 = persson_brener.crack_tip_length(
+        l0 = theory.persson_brener.crack_tip_length(
             contact_modulus=1.0, work_of_adhesion=1.0, strength=strength, strength_ratio=alpha
         )
-        curve = unloading.retraction(
+        curve = theory.unloading.retraction(
             73 * h0,
-            CrackLaw(theory="persson-brener", material=material, tip_length=l0),
+            theory.CrackLaw(theory="persson-brener", material=material, tip_length=l0),
             speed=speed * h0,
             radius=1.0,
             contact_modulus=1.0,
@@ -194,22 +176,20 @@ def test_unloading_agrees_with_the_simulation_where_the_bulk_is_relaxed():
 
 
 # Bounds ---------------------------------------------------------------------------------------
-
-
 def test_the_glassy_force_goes_from_jkr_to_dmt_with_the_tabor_number_of_the_glass():
     short, long = LENS | dict(equilibrium_gap=1e-12), LENS | dict(equilibrium_gap=1e3)
-    assert bounds.glassy_force(**short, modulus_ratio=0.1) / FORCE == pytest.approx(
+    assert theory.bounds.glassy_force(**short, modulus_ratio=0.1) / FORCE == pytest.approx(
         10, rel=1e-6, abs=0
     )
-    assert bounds.glassy_force(**long, modulus_ratio=0.1) / FORCE == pytest.approx(
+    assert theory.bounds.glassy_force(**long, modulus_ratio=0.1) / FORCE == pytest.approx(
         40 / 3, rel=1e-6, abs=0
     )
     # mu k^(1/3) = 1.504 at mu = 3.24 and k = 0.1; an independent simulation has 1.0764
-    h0 = lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / 3.24
-    found = bounds.glassy_force(**LENS, equilibrium_gap=h0, modulus_ratio=0.1) / FORCE
+    h0 = theory.lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / 3.24
+    found = theory.bounds.glassy_force(**LENS, equilibrium_gap=h0, modulus_ratio=0.1) / FORCE
     assert found == pytest.approx(10.764, rel=1e-4, abs=0)
-    assert bounds.glassy_force(**long, modulus_ratio=0.1) == pytest.approx(
-        10 * dmt.pull_off_force(radius=5e-3, work_of_adhesion=0.15), rel=1e-6, abs=0
+    assert theory.bounds.glassy_force(**long, modulus_ratio=0.1) == pytest.approx(
+        10 * theory.dmt.pull_off_force(radius=5e-3, work_of_adhesion=0.15), rel=1e-6, abs=0
     )
 
 
@@ -217,22 +197,22 @@ def test_the_glassy_force_of_a_small_contact_is_the_fast_limit_by_superposition(
     # P = 4/3 E0* a^3/R - sqrt(8 pi E0* a^3 w/k) below the radius of its minimum
     k = 0.1
     glass = dict(radius=5e-3 / k, contact_modulus=2e6 / k, work_of_adhesion=0.15)
-    full = bounds.smallest_full_radius(**LENS, modulus_ratio=k)
-    assert full == pytest.approx(jkr.pull_off(**glass).contact_radius, rel=1e-12, abs=0)
+    full = theory.bounds.smallest_full_radius(**LENS, modulus_ratio=k)
+    assert full == pytest.approx(theory.jkr.pull_off(**glass).contact_radius, rel=1e-12, abs=0)
     a = full * np.array([0.3, 0.999, 1.0, 2.0])
-    found = bounds.glassy_force_at_radius(a, **LENS, modulus_ratio=k)
-    assert found[:3] == pytest.approx(-jkr.force(a[:3], **glass), rel=1e-12, abs=0)
+    found = theory.bounds.glassy_force_at_radius(a, **LENS, modulus_ratio=k)
+    assert found[:3] == pytest.approx(-theory.jkr.force(a[:3], **glass), rel=1e-12, abs=0)
     assert found[3] == found[2] == pytest.approx(10 * FORCE, rel=1e-12, abs=0)
 
 
 def test_the_glassy_work_tends_to_that_of_jkr_and_its_estimate_to_nearly_twice_that():
     k = 0.1
     short = LENS | dict(equilibrium_gap=1e-12)
-    expected = k ** (-2 / 3) * jkr.work_to_pull_off(**LENS)
-    work = bounds.glassy_work(**short, modulus_ratio=k)
+    expected = k ** (-2 / 3) * theory.jkr.work_to_pull_off(**LENS)
+    work = theory.bounds.glassy_work(**short, modulus_ratio=k)
     assert work == pytest.approx(expected, rel=1e-6, abs=0)
-    a = bounds.smallest_full_radius(**LENS, modulus_ratio=k)
-    estimate = bounds.glassy_work_estimate(a, **LENS)
+    a = theory.bounds.smallest_full_radius(**LENS, modulus_ratio=k)
+    estimate = theory.bounds.glassy_work_estimate(a, **LENS)
     assert estimate == pytest.approx(2 * np.pi * a**2 * 0.15, rel=1e-12, abs=0)
     assert estimate / work == pytest.approx(1.80, rel=2e-3, abs=0)
 
@@ -240,30 +220,28 @@ def test_the_glassy_work_tends_to_that_of_jkr_and_its_estimate_to_nearly_twice_t
 def test_the_threshold_radius_inverts_the_fit():
     unit = np.pi * 5e-3 * 0.15
     length = (np.pi * 5e-3**2 * 0.15 / 2e6) ** (1 / 3)
-    a = bounds.threshold_contact_radius(unit * np.array([1.5, 15.0]), **LENS) / length
+    a = theory.bounds.threshold_contact_radius(unit * np.array([1.5, 15.0]), **LENS) / length
     assert 0.3 * a**2.7 == pytest.approx([1.5, 15.0], rel=1e-12, abs=0)
     with pytest.raises(ValueError, match="below the elastic force"):
-        bounds.threshold_contact_radius(unit, **LENS)
+        theory.bounds.threshold_contact_radius(unit, **LENS)
 
 
 # Empirical ------------------------------------------------------------------------------------
-
-
 def test_gent_schultz_doubles_at_its_reference_speed():
     law = dict(reference_speed=213.5e-6, exponent=0.4154)
-    assert empirical.gent_schultz(213.5e-6, **law) == pytest.approx(2, rel=1e-14, abs=0)
+    assert theory.empirical.gent_schultz(213.5e-6, **law) == pytest.approx(2, rel=1e-14, abs=0)
     v = np.geomspace(1e-7, 1e-1, 9)
-    gamma = empirical.gent_schultz(v, **law)
+    gamma = theory.empirical.gent_schultz(v, **law)
     assert last_slope(v, gamma - 1) == pytest.approx(0.4154, rel=1e-9, abs=0)
 
 
 def test_the_readings_of_the_rate_agree_where_they_should():
     mu = 3.24
     # h0 for this Tabor number
-    h0 = lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / mu
-    published = rate.rate_as_published(1e-4 * 0.02 / h0)
-    own = rate.rate_in_contact_heights(1e-4, time_unit=0.02, **LENS)
+    h0 = theory.lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / mu
+    published = theory.rate.rate_as_published(1e-4 * 0.02 / h0)
+    own = theory.rate.rate_in_contact_heights(1e-4, time_unit=0.02, **LENS)
     assert own == pytest.approx(published, rel=1e-12, abs=0)
     height = (np.pi**2 * 0.15**2 * 5e-3 / 2e6**2) ** (1 / 3)
-    printed = rate.rate_in_tip_lengths(1e-4, time_unit=0.02, tip_length=height)
+    printed = theory.rate.rate_in_tip_lengths(1e-4, time_unit=0.02, tip_length=height)
     assert printed == pytest.approx(own, rel=1e-12, abs=0)

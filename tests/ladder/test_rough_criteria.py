@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.model.geometry import HalfSpace, Layer
-from viscotack.model.protocol import AtForce, Retraction
 from viscotack.model.surfaces import HeightMap, self_affine, sphere
 from viscotack.simulate.grid.plane import Plane
 from viscotack.simulate.rough import RoughProblem, pull, stickiness
@@ -18,11 +16,11 @@ FLAT = HeightMap(np.zeros((8, 8)), 2e-6, periodic=True)
 
 def problem(surface, work=0.02, law=None):
     law = law or vt.LennardJones(work_of_adhesion=work, equilibrium_gap=GAP)
-    test = Retraction(start=AtForce(0.01 * law.strength * surface.area), speed=1e-6)
+    test = vt.Retraction(start=vt.AtForce(0.01 * law.strength * surface.area), speed=1e-6)
     return RoughProblem(surface=surface, material=RUBBER, traction=law, protocol=test)
 
 
-@pytest.mark.parametrize("body", [HalfSpace(), Layer(thickness=30e-6)])
+@pytest.mark.parametrize("body", [vt.HalfSpace(), vt.Layer(thickness=30e-6)])
 def test_the_work_of_persson_s_pressure_is_the_energy_of_full_contact(body):
     surface = self_affine(48, 5e-6, hurst=0.7, rms_height=1e-6, seed=2, shortest=4e-5)
     plane = Plane((48, 48), surface.pixel, body, periodic=True)

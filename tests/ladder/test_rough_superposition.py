@@ -4,9 +4,6 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.errors import InputError
-from viscotack.model.geometry import Layer
-from viscotack.model.protocol import Apart, AtForce, Retraction
 from viscotack.model.surfaces import HeightMap, bumps, drawn_asperities, sphere, summits
 from viscotack.simulate.rough import RoughProblem, pull, superposed
 from viscotack.theory import jkr
@@ -18,7 +15,7 @@ LAW = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
 
 
 def problem(surface, material=ELASTIC, law=LAW, **more):
-    test = Retraction(start=AtForce(1e-5), speed=5e-5, **more)
+    test = vt.Retraction(start=vt.AtForce(1e-5), speed=5e-5, **more)
     return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
 
 
@@ -67,7 +64,7 @@ def test_asperities_of_random_height_tend_to_fuller_and_tabor_for_short_range():
             surface=four_bumps(),
             material=ELASTIC,
             traction=law,
-            protocol=Retraction(start=AtForce(0.05), speed=1e-6),
+            protocol=vt.Retraction(start=vt.AtForce(0.05), speed=1e-6),
         )
         found = superposed(given, asperities=asperities, force_outside=True)
         off.append(found.pull_off_force / expected - 1)
@@ -93,7 +90,7 @@ def test_a_smooth_sphere_is_that_of_the_grid():
 def test_neighbours_are_refused_unless_forced():
     law = vt.LennardJones(work_of_adhesion=0.3, equilibrium_gap=3e-6)
     given = problem(four_bumps(radius=1e-3), law=law)
-    with pytest.raises(InputError, match="asperities are neighbours; simulate"):
+    with pytest.raises(vt.InputError, match="asperities are neighbours; simulate"):
         superposed(given)
     assert not superposed(given, force_outside=True).inside
 
@@ -108,17 +105,17 @@ def test_a_map_that_adhesion_flattens_is_refused_unless_forced(modulus, is_flatt
     assert found.share < 0.15 and found.inside is not is_flattened
     assert found.full_contact == pytest.approx(0.24869 * modulus / 0.885e6, rel=1e-3)
     if is_flattened:
-        with pytest.raises(InputError, match="full contact"):
+        with pytest.raises(vt.InputError, match="full contact"):
             superposed(given)
 
 
 def test_other_problems_are_refused():
     surface = four_bumps()
     common = {"surface": surface, "material": ELASTIC, "traction": LAW}
-    away = Retraction(start=Apart(5e-6), speed=1e-5, moves=())
-    with pytest.raises(InputError, match="relaxed contact"):
+    away = vt.Retraction(start=vt.Apart(5e-6), speed=1e-5, moves=())
+    with pytest.raises(vt.InputError, match="relaxed contact"):
         superposed(RoughProblem(**common, protocol=away))
-    straight = Retraction(start=AtForce(1e-5), speed=1e-5)
-    layer = RoughProblem(**common, protocol=straight, body=Layer(thickness=1e-4))
-    with pytest.raises(InputError, match="half-space"):
+    straight = vt.Retraction(start=vt.AtForce(1e-5), speed=1e-5)
+    layer = RoughProblem(**common, protocol=straight, body=vt.Layer(thickness=1e-4))
+    with pytest.raises(vt.InputError, match="half-space"):
         superposed(layer)

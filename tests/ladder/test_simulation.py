@@ -9,6 +9,7 @@ import viscotack as vt
 from dimensionless import ELASTIC, power_law, slope, standard
 from reference_data import VALUES
 from research.twins import hat_matrix, mean_compliance, plain_sphere
+from solids import standard_solid
 from viscotack.model.geometry.half_space import influence
 from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.geometry.layer import layer_influence
@@ -25,8 +26,6 @@ DEFAULT = 2e-3
 
 
 # --- identities -----------------------------------------------------------------------------
-
-
 def test_uniform_pressure_dents_the_centre_by_twice_pressure_times_radius_over_modulus():
     # u(0) = 2 p a (1 - nu^2)/E for a disc: exact, because hats add up to 1
     r = np.linspace(0.0, 1.7, 60) ** 1.3
@@ -121,8 +120,6 @@ def test_pressure_of_a_power_law_tip_at_the_axis_continues_that_around_it(expone
 
 
 # --- limits ---------------------------------------------------------------------------------
-
-
 @pytest.mark.march
 @pytest.mark.parametrize(
     ("tabor", "expected"), [(0.3, 1.2468), (1.0, 1.1137), (3.24, 1.0308)], ids=str
@@ -213,12 +210,7 @@ def test_three_ways_to_start_find_the_same_contact():
 
 
 # Only the travel bounds the steps (from zero force on), and one mesh serves the whole run.
-STEPS_BY_TRAVEL = {
-    "imbalance": 1e3,
-    "step_error": 1e3,
-    "force_change": 1e3,
-    "fine_zones": 40.0,
-}
+STEPS_BY_TRAVEL = {"imbalance": 1e3, "step_error": 1e3, "force_change": 1e3, "fine_zones": 40.0}
 
 
 def _with(base, **changes):
@@ -240,10 +232,7 @@ def test_simulation_is_second_order_in_the_mesh():
     sizes, forces = np.array([2.0, 1.0]), []
     for size in (*sizes, 0.5):
         settings = _with(
-            base,
-            nodes_per_zone=6 / size,
-            growth_inside=0.065 * size,
-            growth_outside=0.13 * size,
+            base, nodes_per_zone=6 / size, growth_inside=0.065 * size, growth_outside=0.13 * size
         )
         forces.append(vt.pull_off_force(_run(groups, settings)))
     # from a mesh to one half as wide the force changes by three quarters of its error
@@ -282,8 +271,6 @@ def test_moving_the_mesh_changes_next_to_nothing():
 
 
 # --- the plain twin and other programs ------------------------------------------------------
-
-
 def test_triangles_of_the_plain_twin_are_the_reference_ones():
     entries = [e for e in VALUES if e["equation"].startswith("4.13/4.14")]
     size = 1 + max(max(e["inputs"]["i"], e["inputs"]["j"]) for e in entries)
@@ -307,9 +294,7 @@ def test_mean_compliance_of_a_standard_solid_is_its_integral():
     ids=["wide range", "moderate range"],
 )
 def test_fast_solver_equals_plain_solver(tabor, modulus_ratio, exponent, depth, rate, last):
-    groups = vt.Groups(
-        tabor=tabor, material=power_law(modulus_ratio, exponent), start=vt.AtDepth(depth), rate=rate
-    )
+    groups = vt.Groups(tabor, power_law(modulus_ratio, exponent), vt.AtDepth(depth), rate)
     plain = plain_sphere(
         groups,
         nodes=200,
@@ -329,10 +314,7 @@ def test_fast_solver_equals_plain_solver(tabor, modulus_ratio, exponent, depth, 
 @pytest.mark.march
 @pytest.mark.parametrize(
     ("rate", "force", "depth", "speed"),
-    [
-        (10.0, 4.1019, 0.120, 0.906),
-        (1000.0, 10.1644, 63.000, 681.0),
-    ],
+    [(10.0, 4.1019, 0.120, 0.906), (1000.0, 10.1644, 63.000, 681.0)],
     ids=str,
 )
 def test_standard_solid_pulls_off_as_in_the_published_algorithm_refined(rate, force, depth, speed):
@@ -347,10 +329,7 @@ def test_standard_solid_pulls_off_as_in_the_published_algorithm_refined(rate, fo
 @pytest.mark.march
 @pytest.mark.parametrize(
     ("tabor", "exponent", "modulus_ratio", "depth", "rate", "force"),
-    [
-        (3.24, 0.8, 0.1, 73.0, 10**2.5, 7.3298),
-        (1.0, 0.4, 0.01, 20.0, 1e3, 8.3126),
-    ],
+    [(3.24, 0.8, 0.1, 73.0, 10**2.5, 7.3298), (1.0, 0.4, 0.01, 20.0, 1e3, 8.3126)],
     ids="AC",
 )
 def test_power_law_pulls_off_as_in_slow_refined_runs(
@@ -381,3 +360,53 @@ def test_mended_lines_meet_a_smooth_pressure_at_third_order():
     assert slope(sizes, mended) == pytest.approx(-2.9, abs=0.1), mended
     assert slope(sizes, plain) == pytest.approx(-2.0, abs=0.1), plain
     assert mended[-1] < plain[-1] / 200
+
+
+# Fast pulls from deep starts, whose force may have two peaks: the pull-off is the larger one.
+def case(tabor, modulus_ratio, depth, rate):
+    solid = standard_solid(1.0, 1 / modulus_ratio, 1.0, 0.0)
+    return vt.Groups(tabor=tabor, material=solid, start=vt.AtDepth(depth), rate=rate)
+
+
+DEEP = case(4.22, 0.0033, 235.0, 158.2)
+
+
+def near_equal(rate_over_depth):
+    """Return a pull whose glassy peak is the larger from a rate over depth of about 0.804 on."""
+    return case(2.1, 2.4e-4, 78.9, 78.9 * rate_over_depth)
+
+
+def test_a_run_to_the_pull_off_goes_on_to_the_larger_second_peak():
+    result = vt.solve(DEEP, until="pull-off")
+    assert vt.pull_off_force(result) == pytest.approx(17.90, rel=2e-3)
+    assert vt.work_to_pull_off(result) == pytest.approx(1022, rel=5e-3)
+    first, second = vt.peaks(result)
+    assert first.force == pytest.approx(2.45, rel=0.01)
+    assert first.depth > 0.98 * 235
+    assert second == vt.pull_off(result)
+    # both runs have these peaks, and each is compared with its like
+    assert result.error_estimate["force"] < 0.03
+    assert result.error_estimate["work"] < 0.05
+
+
+def test_the_larger_peak_is_the_pull_off_on_both_sides_of_where_they_are_equal():
+    slower, faster = (
+        vt.solve(near_equal(x), until="pull-off", accuracy=0.005) for x in (0.78, 0.83)
+    )
+    assert vt.work_to_pull_off(slower) == pytest.approx(252.5, rel=0.01)
+    assert vt.work_to_pull_off(faster) == pytest.approx(12.66, rel=0.03)
+    assert vt.depth_at_pull_off(slower) < 55 < 75 < vt.depth_at_pull_off(faster)
+
+
+def test_where_two_peaks_are_equal_within_the_error_the_work_is_not_told():
+    result = vt.solve(near_equal(0.804), until="pull-off", accuracy=0.02)
+    assert result.outcome is not vt.Outcome.STOPPED
+    assert result.error_estimate["force"] < 0.1
+    # the stated error of the depth reaches to the other peak
+    first, second = vt.peaks(result)
+    assert result.error_estimate["depth"] == pytest.approx(first.depth - second.depth)
+    with pytest.raises(ValueError, match=r"two peaks .* the work is either \S+, .* or \S+, "):
+        vt.work_to_pull_off(result)
+    answer = vt.summary(result)
+    assert answer["work_to_pull_off"] is None
+    assert "two peaks" in answer["work_to_pull_off_note"]

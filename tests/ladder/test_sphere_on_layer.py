@@ -39,8 +39,6 @@ def on(layer, tabor, accuracy=2e-3, **more):
 
 
 # --- JKR on a layer -------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("base", "shape"), [*((base, Sphere(1.0)) for base in BASES), (BASES[2], Cone(1.0))], ids=repr
 )
@@ -72,8 +70,6 @@ def test_the_gap_around_a_contact_is_that_of_the_influence_matrix(base):
 
 
 # --- simulations ----------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("solid", [ELASTIC, SOLID], ids=["elastic", "relaxing"])
 def test_a_simulation_on_a_thick_layer_is_that_on_a_half_space(solid):
     test = dict(material=solid, rate=10.0, start=vt.AtForce(1.0))
@@ -119,7 +115,6 @@ def test_a_layer_responds_at_lower_rates_and_saturates_sooner():
 
 
 # --- shapes with details --------------------------------------------------------------------------
-
 WAVES = vt.WavySphere(1.0, 0.2, 0.2)
 WORN = vt.MeasuredProfile.sampled(lambda r: max(r * r - 0.25, 0.0) / 2, np.linspace(0, 4, 41))
 WORN = WORN.reduced(1.0, 1 / WORN.equivalent_radius(1.0))

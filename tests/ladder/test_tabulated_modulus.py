@@ -2,15 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
-from viscotack.model.materials import RetardationPowerLaw, StandardSolid
+from solids import creep_power_law
+from viscotack.model.materials import StandardSolid
 from viscotack.theory import greenwood, persson_brener, tabulated_modulus
 from viscotack.theory.crack.tabulated_modulus import TabulatedModulus
 
-RUBBER = RetardationPowerLaw(
-    rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.6, tau0=1e-3, poisson_ratio=0.5
-)
+RUBBER = creep_power_law(1e6, 1e7, 0.6, 1e-3, 0.5)
 SOLID = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5)
 GOOD = dict(
     rubbery_modulus=1e6,
@@ -110,31 +108,6 @@ def test_an_impossible_table_is_refused(change, message):
     TabulatedModulus(**GOOD)
     with pytest.raises(ValueError, match=message):
         TabulatedModulus(**(GOOD | change))
-
-
-# Greenwood ------------------------------------------------------------------------------------
-
-
-def test_greenwood_of_a_constant_loss_is_the_integral_of_the_creep_under_the_zone():
-    """Q by its definition, (1/2) int_0^1 H'(xi) cos(y (1 - xi)) dxi, for a passage of 10 s."""
-    omega = np.geomspace(1e-3, 1.0, 13)
-    table = TabulatedModulus(1e6, tuple(omega), (1.05e6,) * 13, (1e5,) * 13)
-    loss = 1e6 * 1e5 / (1.05e6**2 + 1e5**2)
-
-    def kernel(y):
-        # xi = 1 - u^2, against the logarithm; H' = ln[(1 + root)^2/u^2]
-        return quad(
-            lambda u: np.log((1 + np.sqrt(1 - u**2)) ** 2 / u**2) * np.cos(y * u**2) * u, 0, 1
-        )[0]
-
-    passage = 10.0
-    inside = quad(
-        lambda x: kernel(passage * np.exp(x)), np.log(1e-3), 0, epsabs=1e-10, epsrel=1e-10
-    )[0]
-    # below the table C'' is at least in proportion to the frequency, and the kernel 1
-    exact = 1 / (1 - 2 / np.pi * loss * (inside + kernel(1e-3 * passage)))
-    low = tabulated_modulus.greenwood_amplification(exact / passage, modulus=table).low
-    assert low == pytest.approx(exact, rel=1e-6, abs=0)
 
 
 @pytest.mark.parametrize("ends", [(1, 6), (-2, 3), (0, 5), (2, 9)])

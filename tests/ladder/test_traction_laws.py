@@ -196,8 +196,6 @@ def test_an_impossible_shape_is_refused(kind, wrong, words):
 
 
 # --- contacts -------------------------------------------------------------------------------
-
-
 def maugis_branch(parameter):
     """Return Tabor number, force, depth and radius of Maugis in the units of a result, held."""
     tabor = parameter / (9 / (2 * np.pi)) ** (1 / 3)
@@ -218,11 +216,7 @@ def near_dugdale(parameter):
 
 
 @pytest.mark.parametrize(
-    ("parameter", "finer"),
-    [
-        (0.5, 3.0),
-        pytest.param(5.0, 3.0, marks=pytest.mark.slow),
-    ],
+    ("parameter", "finer"), [(0.5, 3.0), pytest.param(5.0, 3.0, marks=pytest.mark.slow)]
 )
 def test_relaxed_contacts_of_dugdale_are_those_of_maugis(parameter, finer):
     # what MUST be reached: 0.3 % in force and radius
@@ -261,9 +255,7 @@ def test_dugdale_pull_off_is_that_of_maugis(parameter):
 @laws
 def test_a_stiff_sphere_pulls_off_as_bradley_has_it_whatever_the_law(law):
     # 2 pi R dg, 4/3 of the unit; the surface still gives way by a few times mu^(3/2) = 1e-3
-    groups = vt.Groups(
-        tabor=0.01, material=ELASTIC, start=vt.AtDepth(0.02), rate=1.0, traction=law.reduced()
-    )
+    groups = vt.Groups(0.01, ELASTIC, vt.AtDepth(0.02), 1.0, traction=law.reduced())
     result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
     assert vt.pull_off(result).force == pytest.approx(4 / 3, rel=5e-3, abs=0)
 

@@ -52,8 +52,6 @@ def passage(travel, dt, e0):
 
 
 # --- identities -----------------------------------------------------------------------------
-
-
 def test_without_travel_a_passage_is_the_step_of_the_solid():
     rng = np.random.default_rng(5)
     e0, e1, dt = np.sin(NODES), np.cos(3 * NODES), 0.7
@@ -76,8 +74,6 @@ def test_what_a_passage_inherits_and_adds_is_what_its_modes_come_to():
 
 
 # --- limits ---------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("travel", [-0.05, 0.05])
 def test_a_profile_that_travels_leaves_what_it_leaves_at_each_place(travel):
     # a whole profile passes, many of its widths a step, as if it had been there in parts
@@ -93,8 +89,6 @@ def test_a_profile_that_travels_leaves_what_it_leaves_at_each_place(travel):
 
 
 # --- order ----------------------------------------------------------------------------------
-
-
 @pytest.mark.slow
 def test_the_error_of_long_steps_falls_at_second_order():
     base = Settings.for_accuracy(ACCURACY)
@@ -115,8 +109,6 @@ def test_the_error_of_long_steps_falls_at_second_order():
 
 
 # --- the same contacts ----------------------------------------------------------------------
-
-
 CONTACTS = {
     "rigid machine": contact(),
     "soft spring": contact(tabor=15.0, stiffness=0.2),

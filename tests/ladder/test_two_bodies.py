@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from solids import creep_power_law
 from viscotack.model.geometry import effective_sphere
 from viscotack.model.materials import effective_solid
 
@@ -64,8 +65,6 @@ def test_gap_of_a_sphere_is_that_of_its_osculating_paraboloid():
 
 
 def test_other_solids_are_refused_in_words():
-    power = vt.RetardationPowerLaw(
-        rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1.0, poisson_ratio=0.5
-    )
+    power = creep_power_law(1e6, 1e7, 0.5, 1.0, 0.5)
     with pytest.raises(vt.InputError, match="prony_form approximates it"):
         effective_solid(SOFT, power)

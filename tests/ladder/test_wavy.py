@@ -21,8 +21,6 @@ UNITS: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 
 
 # --- 1 identity -----------------------------------------------------------------------------------
-
-
 def test_depth_and_force_are_those_of_the_profile_by_quadrature():
     shape = vt.WavySphere(**SPHERE, **WAVES)
     case = SPHERE | WAVES | SOLID
@@ -34,8 +32,6 @@ def test_depth_and_force_are_those_of_the_profile_by_quadrature():
 
 
 # --- 2 limit --------------------------------------------------------------------------------------
-
-
 def test_long_waves_are_the_curvature_of_a_sphere():
     h, wave = 1e-6, 10.0
     curved = 1 / (1 / SPHERE["radius"] + h * (2 * np.pi / wave) ** 2)
@@ -54,15 +50,9 @@ def test_the_pull_off_is_the_least_of_all_minima(amplitude, wavelength):
 
 
 # --- 4 peer: the simulation -----------------------------------------------------------------------
-
-
 def groups(tabor, material, rate, depth=3.0):
     return vt.Groups(
-        tabor=tabor,
-        material=material,
-        start=vt.AtDepth(depth * tabor),
-        rate=rate,
-        geometry=vt.WavySphere(**SHAPE),
+        tabor, material, vt.AtDepth(depth * tabor), rate, geometry=vt.WavySphere(**SHAPE)
     )
 
 

@@ -45,7 +45,7 @@ class NeighbourCrack:
     -----
     Speeds are in the neighbour's own unit. For power laws with a constant changed by 10
     to 100 %, and Prony series with arms changed by 20 %, the energies agree with those of its own
-    cracks within 1.1 % (`tests/ladder/test_neighbour_crack.py`).
+    cracks within 1.1 % (`tests/ladder/test_steady_crack.py`).
 
     Examples
     --------
