@@ -1,5 +1,7 @@
 """Hysteresis on the ladder: what a loop has lost, in which state it closed, and its error."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, R
 from viscotack.result import load, save
 from viscotack.result.cycles import cycle_rows, cycles
 from viscotack.result.loops import Loop
+from viscotack.result.observables import work_to_pull_off
 from viscotack.simulate import solve
 from viscotack.simulate.crack_contact import crack_contact
 
@@ -124,3 +127,9 @@ def test_a_contact_with_a_steady_crack_has_the_same_hysteresis():
     assert answer.loop is cycle.loop is Loop.DEPTH
     assert cycle.hysteresis == pytest.approx(answer.hysteresis, rel=1e-12, abs=0)
     assert cycle.hysteresis > 0
+
+
+def test_the_work_of_a_punch_is_that_of_its_result():
+    result = solve(replace(PUNCH, moves=(), rate=5.0), accuracy=0.01, estimate_error=False)
+    (cycle,) = cycles(result)
+    assert cycle.work_to_pull_off == pytest.approx(work_to_pull_off(result), rel=1e-9, abs=0)
