@@ -120,6 +120,7 @@ def test_flags_with_units_state_a_problem_in_si(fake, capsys):
         ({"speed": None}, "--speed"),
         ({"radius": None}, "--radius"),
         ({"tabor": "3"}, "--tabor"),
+        ({"rubbery_modulus": "1 MPa"}, "--contact-modulus"),
         ({"preload": "1 um"}, "--preload"),
         ({"preload_force": None}, "--preload-force"),
         ({"modulus_ratio": "10"}, "--modulus-ratio"),

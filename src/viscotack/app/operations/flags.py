@@ -307,6 +307,10 @@ def table_of_solid(
     if in_si:
         numbers = {"poisson_ratio": 0.5} | numbers
     if "contact_modulus" in numbers:
+        if "rubbery_modulus" in numbers:
+            raise InputError(
+                "give either `contact_modulus` or `rubbery_modulus`", field="contact_modulus"
+            )
         nu = parse(numbers["poisson_ratio"], "1")
         modulus = parse(numbers.pop("contact_modulus"), "Pa") * (1 - nu**2)
         numbers["rubbery_modulus"] = f"{modulus!r} Pa"
