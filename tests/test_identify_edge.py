@@ -8,10 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import viscotack as vt
-from command_line import exit_status
+from command_line import exit_status, refused
 from rate_tests import holds, measured
-from viscotack.app.operations import operation
-from viscotack.app.operations.request import request_of
 from viscotack.identify import RateSeries, forecast_edge, identify_edge, identify_rates
 from viscotack.theory import edge_law, jkr
 
@@ -102,9 +100,6 @@ def test_an_edge_law_is_found_again_and_forecast():
     for speed in (0.9e-7, 1.1e-2):
         with pytest.raises(vt.OutOfRange, match="edge law"):
             forecast_edge(fit, [speed])
-    asked = request_of(operation("forecast"), {"study": "edge.toml", "temperature": "30 degC"})
-    with pytest.raises(vt.InputError, match="temperature"):
-        asked.of_fit(fit)
 
 
 def test_the_edge_law_of_a_spring_is_found_again():
@@ -126,7 +121,7 @@ def test_the_criterion_prefers_the_model_that_made_the_forces():
     assert fit.edge is not None and fit.edge.criterion < fit.criterion - 6
 
 
-def test_from_rig_files_to_a_forecast_by_the_edge_law(tmp_path, capsys):
+def test_from_rig_files_to_a_forecast_by_the_edge_law(tmp_path, capsys, monkeypatch):
     study = str(tmp_path / "edge.toml")
     line = ["--radius", "5 mm", "--contact-modulus", "2 MPa", "--preload", "2 mN", "-o", study]
     assert exit_status(["identify", "edge", *map(str, GROWING), *line, "--json"]) == 0
@@ -141,3 +136,6 @@ def test_from_rig_files_to_a_forecast_by_the_edge_law(tmp_path, capsys):
     ):
         assert row["low_N"] < force < row["high_N"] < 1.15 * row["low_N"]
     assert exit_status(["report", study, "-o", str(tmp_path / "page.html")]) == 2
+    # refused before the fit
+    monkeypatch.setattr("viscotack.identify.identify_edge", None)
+    assert "temperature" in refused(["forecast", study, "--temperature", "40 degC"], capsys)

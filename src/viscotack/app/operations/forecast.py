@@ -67,6 +67,16 @@ class Wish(Request):
     approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s")
     time_limit: HowLong = None
 
+    def refuse_for(self, study: Series) -> None:
+        """Refuse conditions that the fit of a study will not know."""
+        for name in ("temperature", "dwell", "approach_speed"):
+            if isinstance(study, IdentifyEdge) and getattr(self, name) is not None:
+                raise InputError(
+                    f"leave out `{name}`: an edge law knows relaxed contacts at the "
+                    "temperature of its tests only",
+                    field=name,
+                )
+
     def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""
         from viscotack.identify import EdgeFit, forecast_edge, forecast_rates
@@ -77,13 +87,6 @@ class Wish(Request):
             measured = [one.speed for one in fit.series]
             speed = np.geomspace(min(measured), max(measured), 25)
         if isinstance(fit, EdgeFit):
-            for name in ("temperature", "dwell", "approach_speed"):
-                if getattr(self, name) is not None:
-                    raise InputError(
-                        f"leave out `{name}`: an edge law knows relaxed contacts at the "
-                        "temperature of its tests only",
-                        field=name,
-                    )
             return forecast_edge(fit, speed, preload=self.preload)
         conditions = self.values("preload", "temperature", "dwell", "approach_speed")
         return forecast_rates(fit, speed, **conditions)
@@ -156,12 +159,15 @@ def _forecast(
     from viscotack.clock import limited
 
     with limited(asked.time_limit):
-        found = fitted(asked.study, caller, kinds)
+        found = fitted(asked.study, caller, kinds, asked)
         return found, asked.of_fit(found.fit)
 
 
 def fitted(
-    study: Path, caller: Caller, kinds: tuple[type[Series], ...] = (IdentifyRates,)
+    study: Path,
+    caller: Caller,
+    kinds: tuple[type[Series], ...] = (IdentifyRates,),
+    wish: Wish | None = None,
 ) -> Identified:
     """Make the fit of a study, one of the kinds, with the forces of the file beside it."""
     from viscotack.identify.computed import SUFFIX
@@ -171,6 +177,8 @@ def fitted(
     path = caller.file(study)
     asked = read_study(path, *(kind.word for kind in kinds)).request
     assert isinstance(asked, IdentifyRates | IdentifyEdge), "no other has these words"
+    if wish is not None:
+        wish.refuse_for(asked)
     return asked.identified(caller.within(path), path.with_suffix(SUFFIX))
 
 
