@@ -128,12 +128,18 @@ def test_maps_are_read_with_their_digits(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "content"), [("a.csv", b"1,2\n3\n"), ("a.csv", b"1 2\n3 4\n"), ("a.npy", b"no array")]
+    ("name", "content", "place"),
+    [
+        ("a.csv", b"1,2\n3\n", "line 2"),
+        ("a.csv", b"# of two\n\n1,2\n3,4\n5,b\n", "line 5"),
+        ("a.csv", b"1 2\n3 4\n", "pixels"),
+        ("a.npy", b"no array", "array"),
+    ],
 )
-def test_a_damaged_map_is_refused(tmp_path, name, content):
+def test_a_damaged_map_is_refused(tmp_path, name, content, place):
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(InputError, match=name):
+    with pytest.raises(InputError, match=f"{name}: .*{place}"):
         surfaces.read_map(path, pixel=1e-6)
 
 

@@ -147,9 +147,10 @@ def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
     """Return the numbers of a text file, and side of a pixel and unit [m] in its header."""
     with open(path, encoding="utf-8-sig", errors="replace") as file:
         lines = [text.strip() for text in islice(file, 2 * MOST)]
-    rows = [line for line in lines if line and not line.startswith("#")]
-    if not rows:
+    numbers = [n for n, line in enumerate(lines, 1) if line and not line.startswith("#")]
+    if not numbers:
         raise InputError("it has no numbers")
+    rows = [lines[n - 1] for n in numbers]
     first = rows[0]
     separator = next(mark for mark in _SEPARATORS if mark is None or mark in first)
     # "0,5 0,7" has commas within numbers, "0.5, 0.7" between them
@@ -158,9 +159,19 @@ def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
         separator = None
     if separator != "," and "," in first and "." not in first:
         rows = [row.replace(",", ".") for row in rows]
+    cut = [row.rstrip(separator or "") for row in rows]
     try:
-        cut = [row.rstrip(separator or "") for row in rows]
         heights = np.loadtxt(cut, delimiter=separator, ndmin=2)
-    except ValueError as error:
-        raise InputError(f"{error}; a map has only numbers, equally many in each row") from None
+    except ValueError:
+        # NumPy counts some rows from 0 and others from 1, and never lines that are left out
+        counts = [_count(row, separator) for row in cut]
+        line = next(n for n, x in zip(numbers, counts, strict=True) if not x or x != counts[0])
+        raise InputError(f"line {line}: a map has only numbers, equally many in each row") from None
     return heights, *_header([line for line in lines if line.startswith("#")], heights.shape)
+
+
+def _count(text: str, separator: str | None) -> int:
+    """Return how many numbers a row has, 0 if it has other words."""
+    with suppress(ValueError):
+        return np.loadtxt([text], delimiter=separator).size
+    return 0
