@@ -4,6 +4,8 @@ import { refusalOf } from "./answer.js";
 import { button, fill, fold, h, selection } from "./dom.js";
 import { read, said, shown, sliderOf, written } from "./numbers.js";
 
+const ROOM = 12; // characters of a field
+
 export function fields(form, store) {
   const { forms } = store;
   // on a phone the indenter and the test, and all that is drawn of them, come first
@@ -109,7 +111,9 @@ export function fields(form, store) {
     const track = h("div", { class: "track" }, ends[0], slider, ends[1]);
     let scale = null, quantity = null, dragging = false, before = null;
     const put = () => {
-      const text = shown(stated() ?? "");
+      // a fit states all digits, more than the field has room for: the state keeps them
+      const all = shown(stated() ?? ""), long = all.length > ROOM ? read(all, card.unit) : null;
+      const text = long?.si ? long.word + said(long.number, long.unit, 6) : all;
       if (text === before && text === input.value) return; // a slider that moves leaves the other fields alone
       before = text;
       if (document.activeElement !== input) input.value = text;
