@@ -7,7 +7,7 @@ import { quantity, said } from "./numbers.js";
 import { Plot } from "./plot.js";
 import { tomlOf } from "./record.js";
 
-const COLOURS = ["c3", "c4", "c5"];
+const COLOURS = ["c3", "c4", "c5", "ink"];
 
 export function rig(host, store) {
   const left = h("section", { class: "card main" }), cycles = h("div"), below = h("section", { class: "card wide", hidden: true }, h("h2", {}, "Cycles"), cycles);
@@ -26,7 +26,7 @@ export function rig(host, store) {
     const { curves, refused } = found, answer = h("div");
     const slow = button("What the first says of the interface, if it was slow", () => identify("identify/slow", {}, answer), { id: "identify-slow" });
     const rates = button("What the series of speeds says of the interface", () => identify("identify/rates", { material: tomlOf({ material: store.tables.material }) }, answer), { id: "identify-rates" });
-    file.said.replaceChildren(h("p", {}, `${curves.length} ${curves.length === 1 ? "cycle" : "cycles"} read, ${refused.length} refused`), ...refused.map((one) => h("p", { class: "refused" }, `${one.file}: ${one.reason}`)), slow, rates, answer);
+    file.said.replaceChildren(h("p", {}, `${curves.length} ${curves.length === 1 ? "cycle" : "cycles"} read, ${refused.length} refused`), ...refused.map((one) => h("p", { class: "refused" }, `${one.file}: ${one.reason}`)), h("div", { class: "row" }, slow, rates), answer);
     cycles.replaceChildren(table("Cycles of the tests", ["test", "pull-off", "true speed", "preload", "forecast"], curves.map((one) => [
       `${one.file}, cycle ${one.cycle}`, `${said(one.pull_off_force_N, "N")} ± ${said(one.pull_off_force_N_uncertainty, "N", 1)}`, `${said(one.speed_m_s, "m/s", 3)} ± ${said(one.speed_m_s_uncertainty, "m/s", 1)}`,
       said(one.preload_N, "N", 3), button("Ask the case for this speed and preload", () => set(one)),
@@ -56,7 +56,7 @@ export function rig(host, store) {
     const line = (one, colour, words = one?.words, dash = false) => (one ? [{ kind: "line", x: one.depth, y: one.force, colour, words, dash }] : []);
     plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, [
       ...line(elastic, "c6", elastic?.words, true), ...line(edge?.applies ? edge : null, "c2", `theory: ${edge?.words}`), ...line(surrogate, "c1"), ...line(simulated?.curve, "c0", "simulation of the case"),
-      ...curves.slice(0, 9).map((one, i) => ({ kind: "points", x: one.depth, y: one.force, colour: COLOURS[i % 3], size: 1.6, words: `${one.file}, ${said(one.speed_m_s, "m/s", 2)}` })),
+      ...curves.slice(0, 9).map((one, i) => ({ kind: "points", x: one.depth, y: one.force, colour: COLOURS[i % COLOURS.length], size: 1.6, words: `${one.file}, ${said(one.speed_m_s, "m/s", 2)}` })),
     ]);
     speeds.card.hidden = !found;
     if (found) speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pulled, least: 0 } }, [...(store.theory?.speeds ? ofSpeeds(store.theory.speeds) : []), measured(found)]);
