@@ -132,7 +132,7 @@ def _decoded(file: LabFile) -> tuple[str, str]:
         if encoding is None:
             return _by_code_page(content)
         raise file.error(
-            f"the bytes after {error.start} are not {encoding} text; the file is damaged"
+            f"the bytes after {error.start} are not {encoding} text; it is damaged or no table"
         ) from None
 
 
