@@ -80,5 +80,8 @@ export const operations = (id, ...words) => (host, store) => {
   }
 };
 
-// A figure that the server has drawn.
-export const picture = (svg, alt) => h("img", { src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })), alt });
+// A figure that the server has drawn, with a button that saves it.
+export function picture(svg, title) {
+  const src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })), name = `${title.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-")}.svg`;
+  return h("figure", {}, h("div", { class: "head" }, h("h2", {}, title), h("div", { class: "exports" }, button("SVG", () => save(name, svg), { "aria-label": `Save ${title} as SVG` }))), h("img", { src, alt: title }));
+}

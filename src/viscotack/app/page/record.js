@@ -14,7 +14,7 @@ export function record(host, store) {
     h("section", { class: "card" }, text("Link", () => location.origin + store.address), text("File", () => tomlOf(store.tables), "case.toml"), dropped("a case file (TOML)", "record-files", open), refused),
     h("section", { class: "card" }, text("Command line", () => commandOf(store.settings)), h("p", { class: "hint" }, "Save the file as case.toml first, and run the lines in its folder."),
       text("Python", () => pythonOf(store.settings), "case.py"), text("Numbers of the simulation", () => store.run.answer && JSON.stringify(store.run.answer.summary, null, 2), "summary.json"),
-      h("p", { class: "hint" }, "All of them give the same digits. Each picture has buttons for SVG, PNG and CSV. The API is described at ", h("a", { href: "/api/docs" }, "/api/docs")))));
+      h("p", { class: "hint" }, "All of them give the same digits. Each picture has buttons that save it. The API is described at ", h("a", { href: "/api/docs" }, "/api/docs")))));
   store.on("quick run kept", draw);
   return { shown: draw };
 
