@@ -122,6 +122,22 @@ def test_a_temperature_above_the_table_is_that_of_its_points(file):
     assert np.all(np.isnan(read_dma(file("Temperature limit,620 °C\n" + table)).temperature))
 
 
+@pytest.mark.parametrize("say", ["Temperature: {} °C", "Temperature:,{} °C,", "{} °C,,", "{} °C"])
+def test_text_between_tables_states_the_temperature_of_the_next_one(file, say):
+    head, rows = "f [Hz],E' [MPa],E'' [MPa]\n", "1,3,0.4\n2,4,0.5\n"
+    text = "".join(f"{say.format(x)}\n{head}{rows}" for x in (20, 40))
+    text += f"Interval: 3,,\n{head}{rows}"
+    sweeps = read_dma(file(text))
+    assert_allclose(sweeps.temperature, np.repeat([293.15, 313.15, 313.15], 2))
+    assert sweeps.storage.tolist() == 3 * [3e6, 4e6]
+
+
+def test_tables_of_several_materials_side_by_side_are_refused(file):
+    text = "A,,,B,,\n" + ",".join(["f [Hz],E' [MPa],E'' [MPa]"] * 2) + "\n1,3,0.4,1,30,4\n"
+    with pytest.raises(ValueError, match="'A' above the columns"):
+        read_dma(file(text))
+
+
 def test_intervals_with_the_same_headings_are_tables_of_their_own(file):
     head = "Angular Frequency\tStorage Modulus\tLoss Modulus\n\t\t\n[rad/s]\t[Pa]\t[Pa]\n"
     text = (

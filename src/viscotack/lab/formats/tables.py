@@ -31,7 +31,8 @@ from .numbers import is_number
 
 _STATED = re.compile(r'([+-]?[0-9]+(?:[.,][0-9]*)?)[\s;,"]*([^\t;,"]*).*')
 # "Temperature,25.0 degC", "Temp. [C] = 25,0", "Test temperature 25 °C"
-_LABELLED = re.compile(r'"?([^:=;,\t"]*[^:=;,\t"\s0-9+-])"?\s*[:=;,\t\s]\s*"?([+-]?[0-9].*)')
+_LABELLED = re.compile(r'"?([^:=;,\t"]*[^:=;,\t"\s0-9+-])"?\s*[:=;,\t\s]+\s*"?([+-]?[0-9].*)')
+_ALONE = re.compile(r'"?([+-]?[0-9]+(?:[.,][0-9]*)?)\s*([^\s;,"0-9]+)[\s;,"]*')
 _OF_TEST = set(WORDS["temperatures"]["test"].split())
 _ABOVE = 4  # rows of words above the numbers
 _ONE = ("1", "1.0")
@@ -288,7 +289,8 @@ def _counts(cells: Sequence[str]) -> bool:
 def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
     """Return the temperature stated above a table [K]; None if there is none or more than one.
 
-    The unit stands behind the number, in brackets behind the word, or in the next cell.
+    The unit stands behind the number, in brackets behind the word, or in the next cell. Number and
+    unit may also stand alone.
 
     Examples
     --------
@@ -299,12 +301,13 @@ def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
     """
     found = set()
     for row in rows:
-        match = _LABELLED.fullmatch("\t".join(cell.strip() for cell in row).strip("\t# "))
+        text = "\t".join(cell.strip() for cell in row).strip("\t# ")
+        match, number = _LABELLED.fullmatch(text), _ALONE.fullmatch(text)
         heading = match and _temperature(match[1])
-        number = match and _STATED.fullmatch(match[2])
-        if not heading or not number:
+        number = _STATED.fullmatch(match[2]) if match and heading else number
+        if not number:
             continue
-        unit = number[2].strip() or heading.unit
+        unit = number[2].strip() or (heading.unit if heading else "")
         with suppress(InputError):
             value = in_kelvin(float(number[1].replace(",", ".")), unit)
             if POSSIBLE[0] < value < POSSIBLE[1]:

@@ -144,7 +144,6 @@ def in_rows(
 
     `above` are the rows above the headings, and `before` is the last of them that is not empty.
     """
-    stated = {"words": geometry(above), "temperature": stated_temperature(above)}
     starts, filled = [-1], False
     for i, (_, row) in enumerate(rows):
         if any(map(is_number, row)):
@@ -152,15 +151,19 @@ def in_rows(
         elif filled and (list(row) == list(headings) or heads(words, row)):
             starts.append(i)
             filled = False
-    found = []
+    found, shape, temperature = [], "", None
     for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
+        # what stands above a table holds for the next ones, unless these state their own
+        shape, temperature = geometry(above) or shape, stated_temperature(above) or temperature
+        own, labels = _labels(headings if start < 0 else rows[start][1], before)
         block = list(rows[start + 1 : end])
-        # text above the next headings: "Result: ...", "Interval: 2"
+        # text above the next headings: "Result: ...", "Temperature: 40 °C"
+        texts = []
         while end < len(rows) and block and _is_text(block[-1][1]):
-            block.pop()
-        own, labels = _labels(*((headings, before) if start < 0 else (rows[start][1], ())))
+            texts.append(block.pop()[1])
+        above, before = texts[::-1], next(filter(any, texts), ())
         units, data = under(block)
-        whole = tabulated(file, words, own, units, data, **stated)
+        whole = tabulated(file, words, own, units, data, words=shape, temperature=temperature)
         found += _by_label(whole, labels) if labels else [whole]
     return found
 
@@ -380,7 +383,8 @@ def _labels(headings: Sequence[str], before: Sequence[str]) -> tuple[list[str], 
     """
     row = [cell.strip() for cell in headings]
     for own, labels in (_within(row), (row, _above(row, before))):
-        if any(label[:1] in "+-0123456789" for label in filter(None, labels)):
+        told = {*filter(None, labels)}
+        if len(told) > 1 or any(label[:1] in "+-0123456789" for label in told):
             if _each_has_its_own(own, labels):
                 return own, labels
     return row, []
