@@ -166,6 +166,9 @@ def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
     assert told[1][told[0].index("pull_off_force")] == pytest.approx(7.3, abs=0.1)
 
 
+MODULI = ("sphere", "--radius", "5 mm", "--rubbery-modulus", "1 MPa", "--contact-modulus", "2 MPa")
+
+
 def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys):
     cases, other = tmp_path / "cases.csv", tmp_path / "other.csv"
     cases.write_text("tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n")
@@ -184,6 +187,11 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
         ("leave out --rate", [lens, *RATE]),
         ("--size", [*SPHERE, *RATE, "--size", "1"]),
         ("confidence", [*SPHERE, *RATE, "--confidence", "90"]),
+        ("--temperature", [*SPHERE, *RATE, "--temperature", "20 degC"]),
+        ("--material", [*SPHERE, *RATE, "--material", "fractional-zener"]),
+        ("--material", [*SPHERE, *RATE, "--material", "prony"]),
+        ("published", [*SPHERE, *RATE, "--material", "pdms-10"]),
+        ("--contact-modulus", [*MODULI, "--material", "sls"]),
     ):
         assert words in wrong(capsys, *arguments), words
     assert not (tmp_path / "out.csv").exists()

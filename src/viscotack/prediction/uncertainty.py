@@ -249,7 +249,7 @@ def _check(
 ) -> None:
     """Raise an error for deviations, samples of parts, confidence or samples that cannot be."""
     if not (deviations or times or sampled):
-        raise InputError('give the deviation of an input, for example {"sphere.radius": 0.02}')
+        raise InputError("give the deviation of an input, such as sphere.radius, or sampled ones")
     for name, value in deviations.items():
         if not 0 < value <= _LARGEST:
             raise InputError(

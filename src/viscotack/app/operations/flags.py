@@ -223,13 +223,14 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
     """
     from viscotack.model.problem.law_table import table_of_words
 
-    known, in_si = flags_of((word,)), is_in_si(said)
+    known, of_si = flags_of((word,)), of_si_alone(said)
+    in_si = bool(of_si)
     if unknown := [n for n in said if n not in known or not (known[n].pure or known[n].si)]:
         raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
     if in_si and (pure := [name for name in said if not known[name].si]):
         raise InputError(
-            f"{quoted(pure[:1])} is dimensionless, and others are in SI; state the whole problem "
-            "in one of the two",
+            f"{quoted(pure[:1])} is dimensionless and {quoted(of_si[:1])} in SI; state the whole "
+            "problem in one of the two",
             field=pure[0],
         )
     tables: dict[str, dict[str, Any]] = {"material": {}, "interface": {}, word: {}}
@@ -284,9 +285,9 @@ def _refuse_missing(
         raise InputError(f"give {of}, got {quoted(starts) or 'none'}")
 
 
-def is_in_si(said: Mapping[str, Any]) -> bool:
-    """Return whether one of some flags states a problem in SI, as it has no other meaning."""
-    return any(n in FLAGS and FLAGS[n].si and not FLAGS[n].pure for n in {*said} - {"temperature"})
+def of_si_alone(said: Mapping[str, Any]) -> list[str]:
+    """Return those of some flags that state a problem in SI, as they have no other meaning."""
+    return [name for name in said if name in FLAGS and FLAGS[name].si and not FLAGS[name].pure]
 
 
 def table_of_solid(
@@ -295,6 +296,7 @@ def table_of_solid(
     """Return the table [material] of the words of an option and the numbers beside them."""
     from viscotack.cards import cards
     from viscotack.model.materials.library import MATERIALS
+    from viscotack.model.problem.tables import OWN
     from viscotack.units import parse
 
     numbers = {name: value for name, value in said.items() if name != "model"}
@@ -315,15 +317,22 @@ def table_of_solid(
         modulus = parse(numbers.pop("contact_modulus"), "Pa") * (1 - nu**2)
         numbers["rubbery_modulus"] = f"{modulus!r} Pa"
     word, _, rest = words.partition(":")
-    if word == "prony":
-        return {"model": word, "file": rest, **numbers}
+    kind = nouns.materials.get(word)
+    if kind is None:
+        raise InputError(
+            "material must be a passport FILE.toml, a published material, or one of "
+            f"{', '.join(nouns.materials)}; got {words!r:.60}{OWN}",
+            field="material",
+        )
     by_flags = {"rubbery_modulus", "glassy_modulus", "poisson_ratio", "tau0"}
     by_flags |= {"exponent"} if word == "power-law" else set()
-    kind = nouns.materials.get(word)
-    own = [name for name in (() if kind is None else cards(kind)) if name not in by_flags]
+    own = {name: card.needed for name, card in cards(kind).items() if name not in by_flags}
     values = [text for text in rest.split(",") if text]
-    if len(values) > len(own):
-        raise InputError(f"{word} takes {len(own)} numbers, got {words!r:.60}", field="material")
+    if word == "prony":
+        own, values = {"file": True}, [rest] if rest else []
+    if not sum(own.values()) <= len(values) <= len(own):
+        wanted = ":".join(filter(None, [word, ",".join(own).upper()]))
+        raise InputError(f"material: write {wanted}, got {words!r:.60}", field="material")
     return {"model": word, **dict(zip(own, values, strict=False)), **numbers}
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError
 from viscotack.units import is_number
 
-from .flags import INDENTERS, is_in_si, named_as_flags, tables_of
+from .flags import INDENTERS, named_as_flags, of_si_alone, tables_of
 from .options import Contact, quoted
 from .request import Caller
 
@@ -90,7 +90,7 @@ def statement(given: Any, option: Contact, caller: Caller) -> Statement:
     if word not in option.indenters:
         words = ", ".join(option.indenters)
         raise InputError(f"indenter must be one of {words}, got {word!r:.60}", field=_INDENTER)
-    with named_as_flags(word, in_si=is_in_si(given)):
+    with named_as_flags(word, in_si=bool(of_si_alone(given))):
         tables = tables_of(word, given, nouns)
         return _read(tables, Reading("the options", nouns, caller.file), option)
 
