@@ -147,6 +147,8 @@ def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
     """Return the numbers of a text file, and side of a pixel and unit [m] in its header."""
     with open(path, encoding="utf-8-sig", errors="replace") as file:
         lines = [text.strip() for text in islice(file, 2 * MOST)]
+        if next(file, None) is not None:
+            raise InputError(f"it has more than {2 * MOST} lines")
     numbers = [n for n, line in enumerate(lines, 1) if line and not line.startswith("#")]
     if not numbers:
         raise InputError("it has no numbers")
@@ -161,7 +163,7 @@ def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
         rows = [row.replace(",", ".") for row in rows]
     cut = [row.rstrip(separator or "") for row in rows]
     try:
-        heights = np.loadtxt(cut, delimiter=separator, ndmin=2)
+        heights = np.loadtxt(cut, delimiter=separator, comments=None, ndmin=2)
     except ValueError:
         # NumPy counts some rows from 0 and others from 1, and never lines that are left out
         counts = [_count(row, separator) for row in cut]
@@ -173,5 +175,5 @@ def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
 def _count(text: str, separator: str | None) -> int:
     """Return how many numbers a row has, 0 if it has other words."""
     with suppress(ValueError):
-        return np.loadtxt([text], delimiter=separator).size
+        return np.loadtxt([text], delimiter=separator, comments=None).size
     return 0
