@@ -340,6 +340,5 @@ def _words(fit: RateSeriesFit, about_interface: bool) -> list[str]:
             f"{len(fit.solutions)} separate interfaces fit the series; the ranking takes their "
             "samples as one normal distribution"
         )
-    if about_interface:
-        said.append("ranked by the mean variance of ln(work of adhesion) and ln(range)")
-    return said
+    what = "ln(work of adhesion) and ln(range)" if about_interface else "ln(force) of the forecast"
+    return [*said, f"now, and left with a test: standard deviation of {what}, root mean square"]
