@@ -271,3 +271,11 @@ def test_a_flag_of_a_wrong_kind_is_refused_and_nothing_else(name):
     for value in GARBAGE:
         with contextlib.suppress(InputError, OSError):
             statement({**SPHERE, name: value}, Contact(""), Caller())
+
+
+def test_a_wrong_unit_is_the_fault_of_its_option_and_not_of_a_file():
+    file = Path(__file__).parents[1] / "examples" / "from_rig" / "lens_1_um_s.csv"
+    asked = request_of(operations()["test read"], {"files": [str(file)], "force_unit": "mm"})
+    with pytest.raises(InputError) as refused:
+        asked.answer(Caller())
+    assert refused.value.field == "force_unit"

@@ -184,9 +184,16 @@ def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
     shown = {n: x for n, x in record.items() if n not in (*_UNSAID, *result.groups.inputs)}
     if len(record["cycles"]) < 2 and all(x["snap_in_depth"] is None for x in record["cycles"]):
         del shown["cycles"]  # the pull-off says it all
+    if began := record["shallow_start"]:
+        shown["shallow_start"] = (
+            f"begun at {began['depth']:.5g} h0, where curve and time begin, and not at "
+            f"{began['asked']:.4g} h0; what that changes is in the errors"
+        )
     relative = {"force": f"pull_off_{result.problem.outputs.name_of('force')}"}
     relative["work"] = "work_to_pull_off"
-    for name, error in (shown.pop("error_estimate") or {}).items():
+    if (errors := shown.pop("error_estimate")) is None:
+        shown["numerical_error"] = "not known: no coarser run to compare with"
+    for name, error in (errors or {}).items():
         known = relative.get(name)
         shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
     shown["wall_time_s"] = shown.pop("wall_time_s")

@@ -88,6 +88,7 @@ class Rig(OfFiles):
         files = tuple(caller.file(each) for each in self.files)
         of_file = {each.name for each in fields(TackOptions)}
         reading = {name: value for name, value in self if name in of_file}
+        TackOptions(**reading)  # refuses a wrong one by its name, not as the fault of each file
         names = ("compliance", "compliance_uncertainty", "into", "compression", "retraction_only")
         found = survey(files, reading=reading, evaluation=self.values(*names))
         if not found.cycles:
