@@ -131,6 +131,8 @@ def test_maps_are_read_with_their_digits(tmp_path):
     ("name", "content", "place"),
     [
         ("a.csv", b"1,2\n3\n", "line 2"),
+        ("a.txt", b"# h\n1 2 # x\n3 4\n", "line 2"),
+        ("a.txt", 20_000 * b"1 2\n", "lines"),
         ("a.csv", b"# of two\n\n1,2\n3,4\n5,b\n", "line 5"),
         ("a.csv", b"1 2\n3 4\n", "pixels"),
         ("a.npy", b"no array", "array"),

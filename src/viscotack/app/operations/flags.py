@@ -226,7 +226,8 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
     known, of_si = flags_of((word,)), of_si_alone(said)
     in_si = bool(of_si)
     if unknown := [n for n in said if n not in known or not (known[n].pure or known[n].si)]:
-        raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
+        words = f"a {word} has no option {quoted(unknown[:1])}; leave it out"
+        raise InputError(words, field=unknown[0])
     if in_si and (pure := [name for name in said if not known[name].si]):
         raise InputError(
             f"{quoted(pure[:1])} is dimensionless and {quoted(of_si[:1])} in SI; state the whole "
