@@ -279,3 +279,14 @@ def test_a_wrong_unit_is_the_fault_of_its_option_and_not_of_a_file():
     with pytest.raises(InputError) as refused:
         asked.answer(Caller())
     assert refused.value.field == "force_unit"
+
+
+def test_a_measured_profile_has_no_exponent(tmp_path):
+    file = tmp_path / "profile.csv"
+    file.write_text("radius_1,height_1\n0,0\n1,0.05\n2,0.2\n3,0.45\n")
+    given = {**SPHERE, "indenter": "profile", "points": str(file)}
+    option = Contact("", indenters=("profile",))
+    assert statement(given, option, Caller()).problem is not None
+    with pytest.raises(InputError) as refused:
+        statement({**given, "profile_exponent": 2.0}, option, Caller())
+    assert refused.value.field == "profile_exponent"

@@ -289,6 +289,11 @@ def _shape(given: Any, name: str, reading: Reading) -> Any:
     kind = reading.nouns.shapes[name]
     table = given if isinstance(given, Mapping) else {}
     if kind in (PowerLawProfile, MeasuredProfile) and "file" in table:
+        for key in table.keys() - {"file"}:
+            raise InputError(
+                f"{reading.where}, [{name}] file states the whole profile; leave out {key}",
+                field=f"{name}.{key}",
+            )
         try:
             file = reading.file(name, "file", table["file"])
             return measured_profile(file, pure=reading.pure)
