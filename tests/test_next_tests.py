@@ -123,3 +123,18 @@ def test_the_operation_ranks_every_combination(tmp_path, fit, monkeypatch):
     assert in_si(left.xaxis, left.lines[0].get_xdata()) == pytest.approx([1e-5, 1e-3])
     with pytest.raises(vt.InputError, match="forecast_speed"):
         vt.ask("next-test", **asked, forecast_preload="1 mN")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "field"),
+    [
+        ({"preload": 0.0}, "preload"),
+        ({"approach_speed": 1e-5}, "dwell"),
+        ({"dwell": 1.0}, "approach_speed"),
+        ({"dwell": -1.0, "approach_speed": 1e-5}, "dwell"),
+    ],
+)
+def test_a_test_that_cannot_be_made_is_refused(numbers, field):
+    with pytest.raises(vt.InputError) as refused:
+        Trial(1e-3, **numbers)
+    assert refused.value.field == field

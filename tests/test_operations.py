@@ -290,3 +290,9 @@ def test_a_measured_profile_has_no_exponent(tmp_path):
     with pytest.raises(InputError) as refused:
         statement({**given, "profile_exponent": 2.0}, option, Caller())
     assert refused.value.field == "profile_exponent"
+
+
+def test_an_unknown_law_is_refused_as_the_law():
+    with pytest.raises(InputError) as refused:
+        statement({**SPHERE, "law": "nolaw"}, Contact(""), Caller())
+    assert refused.value.field == "law"

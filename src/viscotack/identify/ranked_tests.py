@@ -69,11 +69,15 @@ class Trial:
         for name in ("speed", "preload", "radius", "approach_speed"):
             value = getattr(self, name)
             if value is not None and not 0 < value < np.inf:
-                raise InputError(f"the {name} of a test must be positive, got {value!r}")
+                raise InputError(
+                    f"the {name} of a test must be positive, got {value!r}", field=name
+                )
         if (self.dwell is None) != (self.approach_speed is None):
-            raise InputError("a dwell needs the speed of the approach, and the other way round")
+            lost = "dwell" if self.dwell is None else "approach_speed"
+            words = "a dwell needs the speed of the approach, and the other way round"
+            raise InputError(words, field=lost)
         if self.dwell is not None and not self.dwell >= 0:
-            raise InputError(f"a dwell must not be negative, got {self.dwell!r} s")
+            raise InputError(f"a dwell must not be negative, got {self.dwell!r} s", field="dwell")
 
 
 @dataclass(frozen=True)

@@ -137,7 +137,7 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
     -----
     The bulk is linear, and the interface rate-independent unless `growth` is set. Forces that rise
     more steeply than any range allows give large residuals. Takes 1 to 20 s, mostly for the cracks
-    of the material, and up to a minute where tests are simulated; with growth some minutes,
+    of the material, and up to a minute where tests are simulated; with growth a minute,
     mostly for the lattice.
     """
     forward = Forward(series.passport.material, series.radius, body=series.body, computed=computed)

@@ -108,7 +108,8 @@ def table_of_words(words: str, laws: Mapping[str, Any] = LAWS) -> dict[str, Any]
     """
     name, _, rest = words.partition(":")
     if name not in laws:
-        raise UnknownNoun(f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}")
+        said = f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}"
+        raise UnknownNoun(said, field="law")
     kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:
