@@ -103,6 +103,25 @@ class RateSeriesFit(SeriesFit):
         return bound is not None and self.intervals["equilibrium_gap"].low > bound
 
     @cached_property
+    def left_out(self) -> tuple[dict[int, float], Changed] | None:
+        """Effect of approach and dwell on forces, where they are known and the fit omits them.
+
+        Dwells [s] of the tests with the shortest and the longest one by number, and the ratios of
+        their forces to those of relaxed contacts. Besides the bulk the contact relaxes: its edge
+        closes long after the modulus is that at rest.
+        """
+        given, (work, gap, growth) = self.given, self.interface
+        pasts = {i: one.history for i, one in enumerate(self.series) if one.history}
+        dwells = {i: past.dwell for i, past in pasts.items()}
+        if given.history or isinstance(given.body, Layer) or not any(dwells.values()):
+            return None
+        ends = sorted({min(dwells, key=dwells.__getitem__), max(dwells, key=dwells.__getitem__)})
+        speed, load = given.speed[ends], given.load[ends]
+        moves = [pasts[i].moves(given.load[i]) for i in ends]
+        changed = self.forward.changed(work, gap, speed, load, moves=moves, growth=growth)
+        return {i: dwells[i] for i in ends}, changed
+
+    @cached_property
     def edge(self) -> EdgeFit | None:
         """The edge law fitted to the same tests; None where it does not apply."""
         try:
@@ -151,7 +170,9 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
         intervals = found.search.intervals(found.best, series.level)
     fit = RateSeriesFit.of(found, intervals, growth=None, excluded=excluded, simulations=runs.count)
     _check_place(fit.search, fit.best)
-    return replace(fit, growth=_growth(fit, plain))
+    found = replace(fit, growth=_growth(fit, plain))
+    _ = found.left_out  # now, so that `computed` keeps it for forecasts
+    return found
 
 
 def _located(

@@ -314,27 +314,18 @@ def _of_layer(fit: RateSeriesFit) -> list[str]:
 
 
 def _of_relaxation(fit: RateSeriesFit) -> list[str]:
-    """Return a caution if approach and dwell, which the fit leaves out, change the forces.
-
-    Besides the bulk the contact relaxes: its edge closes long after the modulus is that at rest.
-    """
-    given, material = fit.given, fit.forward.material
-    dwells = {i: x.history.dwell for i, x in enumerate(fit.series) if x.history}
-    if given.history or isinstance(given.body, Layer) or not any(dwells.values()):
+    """Return a caution if approach and dwell, which the fit leaves out, change the forces."""
+    given, left_out = fit.given, fit.left_out
+    if left_out is None:
         return []
-    ends = np.unique([min(dwells, key=dwells.__getitem__), max(dwells, key=dwells.__getitem__)])
-    pasts = [(fit.series[i].history, given.load[i]) for i in ends]
-    moves = [past.moves(load) for past, load in pasts if past]
-    work, gap, growth = fit.interface
-    found = fit.forward.changed(
-        work, gap, given.speed[ends], given.load[ends], moves=moves, growth=growth
-    )
-    off = np.where(found.holds, found.ratio - 1, 0.0)
+    tests, changed = left_out
     said = [
-        f"{_speed(fit.series[i].speed)} after a dwell of {readable(dwells[i], 's', digits=2)} by "
-        f"{x:+.0%}"
-        for i, x in zip(ends.tolist(), off.tolist(), strict=True)
-        if abs(x) > given.theory_error
+        f"{_speed(fit.series[i].speed)} after a dwell of {readable(dwell, 's', digits=2)} by "
+        f"{ratio - 1:+.0%}"
+        for (i, dwell), ratio, holds in zip(
+            tests.items(), changed.ratio, changed.holds, strict=True
+        )
+        if holds and abs(ratio - 1) > given.theory_error
     ]
     if said:
         cure = "" if given.curves or given.growth else "; with --history the forces include them"
@@ -342,9 +333,9 @@ def _of_relaxation(fit: RateSeriesFit) -> list[str]:
             "the contacts are taken as relaxed, but approach and dwell change the force at "
             f"{' and at '.join(said)}{cure}"
         ]
-    dwell = min(dwells.values())
+    dwell, material = min(tests.values()), fit.forward.material
     left = float(material.relaxation(dwell)) / material.rubbery_modulus - 1
-    if np.all(found.holds) or left < _LEFT:
+    if np.all(changed.holds) or left < _LEFT:
         return []
     return [
         f"the contacts are taken as relaxed, but after a dwell of {readable(dwell, 's', digits=2)} "
