@@ -128,8 +128,6 @@ class NextTest(Request):
 
 # What a trial is, as columns.
 _TRIAL = ("speed_m_per_s", "preload_N", "radius_m", "dwell_s", "approach_speed_m_per_s")
-
-
 _SHOWN = 8  # tests in the text
 
 

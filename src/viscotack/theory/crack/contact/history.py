@@ -255,11 +255,10 @@ class Contact:
         begin, end = state.time, state.time + drive.duration
         if drive.target is not None:
             drive = replace(drive, speed=(drive.target - given) / drive.duration)
-        longest = min(self._longest(drive), drive.duration)
-        dt = min(_FIRST * self._slowest(drive), longest)
+        dt = min(_FIRST * self._slowest(drive), self._longest(drive, drive.duration))
         least = 1e-7 * dt
         for _ in range(_MOST_STEPS):
-            dt = min(dt, longest, self._left_of(drive, end - state.time))
+            dt = min(dt, self._longest(drive, end - state.time))
             found, jumped = self._tried(state, drive, given, begin, dt, least)
             while found is None:
                 dt /= 2
@@ -291,15 +290,13 @@ class Contact:
             return self._at_rest
         return self._tension.one(log(-self._mu2 * rate))
 
-    def _longest(self, drive: Drive) -> float:
-        if drive.speed == 0:
-            return np.inf if not self._chain.times.size else drive.duration / _WAIT
-        return _DRIVE / abs(drive.speed)
-
-    def _left_of(self, drive: Drive, rest: float) -> float:
+    def _longest(self, drive: Drive, rest: float) -> float:
         """Return the longest step in what is left of a drive."""
-        ends = drive.speed != 0 or not self._chain.times.size or rest < _FIRST * drive.duration
-        return rest if ends else rest / _BEFORE_END
+        if drive.speed != 0:
+            return min(_DRIVE / abs(drive.speed), rest)
+        if not self._chain.times.size or rest < _FIRST * drive.duration:
+            return rest
+        return min(drive.duration / _WAIT, rest / _BEFORE_END)
 
     def _slowest(self, drive: Drive) -> float:
         return drive.duration if drive.speed == 0 else 1.0 / abs(drive.speed)
