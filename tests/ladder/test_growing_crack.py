@@ -1,6 +1,7 @@
 """Cracks and contacts whose interface grows with the opening speed: limits, heat, simulation."""
 
 from functools import lru_cache
+from math import exp
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from viscotack.theory.crack.contact import (
     profile_of,
     recede,
 )
-from viscotack.theory.crack.steady import _branch, _grown, _memory, _mesh, _start, comparison
+from viscotack.theory.crack.steady import _grown, _memory, _mesh, _start, comparison
 
 REST = LennardJones(1.0, 1.0)
 POWER = GentSchultz(1, 1, 1.0, 0.5)
@@ -60,8 +61,12 @@ def test_in_an_elastic_solid_the_energy_is_work_of_adhesion_and_heat_of_the_inte
 def test_a_finer_mesh_confirms_the_amplification():
     usual = SteadyCrack(SOLID, POWER)
     grid = _mesh.mesh(1.0, 3e4 / usual.modes.instantaneous, refined=2.0)
-    openings = _memory.Openings(grid, usual.modes, _branch.STEP)
-    fine = _grown.Grown(openings, _start.pinned(REST), POWER, _start.elastic(REST, grid))
+
+    def opening(log_speed):
+        return _memory.opening_matrix(grid, _memory.lengths_of(grid, usual.modes, exp(log_speed)))
+
+    law, start = _start.pinned(REST), _start.elastic(REST, grid)
+    fine = _grown.Grown(grid, law, usual.modes, opening, POWER, start)
     speed = np.array([0.1, 3.0])
     np.testing.assert_allclose(usual.amplification(speed), fine.gamma(np.log(speed)), rtol=3e-3)
 

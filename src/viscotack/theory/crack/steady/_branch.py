@@ -214,8 +214,7 @@ class Branch:
         return found
 
     def _system(self, speed: float) -> System:
-        weights, times = np.array(self._modes.weights), np.array(self._modes.times)
-        modes = lengths_of(self._mesh, self._modes.instantaneous, weights, speed * times)
+        modes = lengths_of(self._mesh, self._modes, speed)
         if self._sign > 0:
             return System(self._mesh, self._law, opening_matrix(self._mesh, modes))
         own = np.concatenate([np.eye(self._mesh.x.size), self._mesh.far[:, None]], axis=1)

@@ -20,17 +20,19 @@ largest crack speed.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.model.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
 from ._branch import STEP, walked
 from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, curve, stated
-from ._memory import Openings
+from ._mesh import Mesh
 
 # Gamma - 1 of the first and the last computed crack, and largest number of cracks.
 _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
@@ -47,19 +49,28 @@ class Grown:
 
     Parameters
     ----------
-    openings : Openings
-        Opening matrices of the solid, kept at multiples of ``STEP``; times of its modes in the unit
-        of time.
-    law : Law
-        The law at rest.
+    mesh, law, modes
+        Of the crack at rest; times of the modes in the unit of time.
+    opening : callable
+        Returns the opening matrix of the solid at ln of a speed, without new computation at
+        multiples of ``STEP`` that another law has asked for.
     growing : law that grows
         Reduced law, with speeds in h0 per unit of time.
     start : Solution
         The elastic crack of the law at rest.
     """
 
-    def __init__(self, openings: Openings, law: Law, growing: Any, start: Solution) -> None:
-        self._openings, self._law, self._growing = openings, law, growing
+    def __init__(
+        self,
+        mesh: Mesh,
+        law: Law,
+        modes: Modes,
+        opening: Callable[[float], Array],
+        growing: Any,
+        start: Solution,
+    ) -> None:
+        self._mesh, self._law, self._modes, self._growing = mesh, law, modes, growing
+        self._opening = opening
         self._elastic, self._ended = start, False
         # message of the crack that was not found, which ends the list
         self._failed = ""
@@ -160,7 +171,7 @@ class Grown:
     def _append(self) -> None:
         if self._cracks:
             before, crack = self._log_y[-1], self._cracks[-1]
-            # a multiple, for which the openings are kept
+            # a multiple, at which all laws share the openings
             y = STEP * (round(before / STEP) + 1)
         else:
             y = self._slowest()
@@ -191,8 +202,7 @@ class Grown:
     def _slowest(self) -> float:
         """Return ln of the first y, where Gamma - 1 is negligible."""
         y = STEP * np.arange(-120, 121)
-        modes = self._openings.modes
-        delay = float(np.dot(modes.weights, modes.times))
+        delay = float(np.dot(self._modes.weights, self._modes.times))
         slow = np.array([self._work(self._elastic, float(np.exp(u))) - 1 for u in y])
         some = slow + delay * np.exp(y)
         return float(y[int(np.argmax(some > _FIRST))])
@@ -200,7 +210,7 @@ class Grown:
     def _work(self, crack: Solution, y: float) -> float:
         """Return the interface energy along a crack in scaled units."""
         energy = np.where(crack.gap > 1, self._law.energy(crack.gap), -1.0)
-        opening = y * slopes(self._openings.mesh, crack.gap)
+        opening = y * slopes(self._mesh, crack.gap)
         return 1 + float(np.sum(self._growing.growth(opening) * np.diff(energy)))
 
     def _foreseen(self, crack: Solution, y: float) -> float:
@@ -229,7 +239,7 @@ class Grown:
 
     def _system(self, log_y: float, work: float) -> System:
         law = self._law._replace(growing=self._growing, speed=float(np.exp(log_y)), strength=work)
-        return System(self._openings.mesh, law, self._openings.at(log_y))
+        return System(self._mesh, law, self._opening(log_y))
 
     def _curves(self) -> tuple[Array, Array, Array]:
         """Return ln of speeds and of Gamma - 1, both increasing, and the interface energies."""

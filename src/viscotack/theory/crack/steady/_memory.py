@@ -56,11 +56,14 @@ class Lengths(NamedTuple):
     lengths: Array
 
 
-def lengths_of(mesh: Mesh, instantaneous: float, weights: Array, lengths: Array) -> Lengths:
-    """Return the relevant modes on a mesh."""
+def lengths_of(mesh: Mesh, modes: Modes, speed: float) -> Lengths:
+    """Return the relevant modes on a mesh at a speed."""
+    weights, lengths = np.array(modes.weights), speed * np.array(modes.times)
     fast = lengths < _SHORT * np.min(mesh.dx)
     lagging = ~fast & (lengths < _LONG * mesh.x[-1])
-    return Lengths(instantaneous + float(np.sum(weights[fast])), weights[lagging], lengths[lagging])
+    return Lengths(
+        modes.instantaneous + float(np.sum(weights[fast])), weights[lagging], lengths[lagging]
+    )
 
 
 def lagged_far(mesh: Mesh, length: float) -> Array:
@@ -95,41 +98,6 @@ def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
     matrix[np.arange(size), np.arange(size)] += modes.instantaneous
     matrix[:, -1] = far
     return matrix
-
-
-class Openings:
-    """Opening matrices of a solid at speeds, for the cracks of all laws on one mesh.
-
-    Those at multiples of a step of ln of the speed are kept.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        The mesh.
-    modes : Modes
-        Modes of the solid.
-    step : float
-        Step of ln of the speed.
-    """
-
-    def __init__(self, mesh: Mesh, modes: Modes, step: float) -> None:
-        self.mesh, self.modes, self._step = mesh, modes, step
-        self._kept: dict[int, Array] = {}
-
-    def at(self, log_speed: float) -> Array:
-        """Return the matrix of :func:`opening_matrix` at ln of a speed."""
-        number = round(log_speed / self._step)
-        if log_speed != number * self._step:
-            return self._computed(log_speed)
-        if number not in self._kept:
-            self._kept[number] = self._computed(log_speed)
-        return self._kept[number]
-
-    def _computed(self, log_speed: float) -> Array:
-        weights, times = np.array(self.modes.weights), np.array(self.modes.times)
-        lengths = float(np.exp(log_speed)) * times
-        modes = lengths_of(self.mesh, self.modes.instantaneous, weights, lengths)
-        return opening_matrix(self.mesh, modes)
 
 
 def closing_matrix(mesh: Mesh, modes: Lengths) -> Array:

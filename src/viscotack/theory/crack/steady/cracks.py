@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -37,7 +37,7 @@ from viscotack.theory._checks import Number, Values, plain
 
 from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
-from ._memory import Openings
+from ._memory import lengths_of, opening_matrix
 
 # Half-length of the mesh over the length of the glassy zone.
 _REACH = 3e4
@@ -401,12 +401,16 @@ def _branch_of(law: Traction, modes: Modes, sign: int) -> _branch.Branch:
 @lru_cache(maxsize=64)
 def _grown_of(law: Traction, modes: Modes, growing: Any) -> _grown.Grown:
     start = _kept(_elastic_of, law, modes.instantaneous)
-    return _grown.Grown(_kept(_openings_of, law, modes), _start.pinned(law), growing, start)
+    grid = _grid_of(law, modes.instantaneous)
+    opening = partial(_kept, _opening_of, law, modes)
+    return _grown.Grown(grid, _start.pinned(law), modes, opening, growing, start)
 
 
-@lru_cache(maxsize=4)
-def _openings_of(law: Traction, modes: Modes) -> Openings:
-    return Openings(_grid_of(law, modes.instantaneous), modes, _branch.STEP)
+# 0.6 MB each; a solid has about 70, at speeds that all growing laws on it share
+@lru_cache(maxsize=128)
+def _opening_of(law: Traction, modes: Modes, log_speed: float) -> Array:
+    grid = _grid_of(law, modes.instantaneous)
+    return opening_matrix(grid, lengths_of(grid, modes, float(np.exp(log_speed))))
 
 
 def _slow_of(elastic: Solution, grid: _mesh.Mesh) -> float:
