@@ -37,8 +37,9 @@ _RADII, _SMALLEST = 160, 0.25
 _AT_REST, _FIRST = 40, 1e-11
 # Largest relative difference of two runs for which their times are extrapolated.
 _LARGE_ERROR = 0.05
-# Half-width of the first bracket of ln t around the previous step, and iterations to the root.
-_NEAR, _ROUNDS, _CLOSE = 0.2, 60, 1e-6
+# Half-width of the bracket of ln t over the error of the previous guess, and its limits; iterations
+# to the root.
+_WIDER, _WIDTHS, _ROUNDS, _CLOSE = 3.0, (5e-3, 0.2), 60, 1e-6
 # Number of rows of the tabulated travel.
 _ROWS = 4000
 
@@ -153,7 +154,10 @@ def _marched(
 ) -> tuple[Array, Array]:
     """Return the times at which the edges reach the radii, and their speeds."""
     time, speed = np.zeros_like(a), np.zeros_like(a)
+    receded = np.log(a[0] - a[1:])
+    ends = travel.first - 12.0, travel.last
     guess = np.full(start.shape, (travel.first + travel.last) / 2)
+    width = np.full(start.shape, _WIDTHS[1])
     for i in range(1, len(a)):
         g, around = profile.depth(a[i]), profile.drawn(a[i]) ** 2
         step = mobility * (a[i - 1] - a[i])
@@ -170,25 +174,32 @@ def _marched(
             found = np.minimum(effective - g, 0.0) ** 2 / around
             return np.log((found + 1e-300) / edge.amplification(step / t)), t
 
-        guess, t = _root(excess, guess, (travel.first - 12.0, travel.last))
-        time[i], speed[i] = time[i - 1] + t, step / t
+        if i > 2:
+            # the speed is about a power of the way of the edge
+            last, power = np.log(speed[i - 2 : i]), np.diff(receded[i - 3 : i], axis=0)
+            faster = (last[1] - last[0]) * power[1] / power[0]
+            guess = np.clip(np.log(step) - last[1] - faster, *ends)
+        found, t = _root(excess, guess, width, ends)
+        width = np.clip(_WIDER * np.abs(found - guess), *_WIDTHS)
+        time[i], speed[i], guess = time[i - 1] + t, step / t, found
     return time, speed
 
 
 def _root(
     excess: Callable[[Array], tuple[Array, Array]],
     guess: Array,
+    width: Array,
     ends: tuple[float, float],
 ) -> tuple[Array, Array]:
     """Return the zero of an increasing function near a guess, and the value there.
 
-    If there is none between the ends, return the nearer end. Uses regula falsi with
-    Anderson-Bjorck weights.
+    If there is none between the ends, return the nearer end. `width` is half that of the first
+    bracket. Uses regula falsi with Anderson-Bjorck weights, and bisection in every fourth round.
     """
-    low, high, width = guess - _NEAR, guess + _NEAR, _NEAR
+    low, high = guess - width, guess + width
     below, above = excess(low)[0], excess(high)[0]
     while np.any(far := (below > 0) & (low > ends[0])) or np.any((above < 0) & (high < ends[1])):
-        width *= 4
+        width = 4 * width
         beyond = (above < 0) & (high < ends[1])
         high, above = np.where(far, low, high), np.where(far, below, above)
         low, below = np.where(beyond, high, low), np.where(beyond, above, below)
@@ -196,14 +207,16 @@ def _root(
         high = np.where(beyond, np.minimum(high + width, ends[1]), high)
         below = np.where(far, excess(low)[0], below)
         above = np.where(beyond, excess(high)[0], above)
-    inside = (below < 0) & (above > 0)
-    x = np.where(below >= 0, low, high)
-    found, side = excess(x), np.zeros(guess.shape, dtype=int)
-    for _ in range(_ROUNDS):
-        span = np.where(inside, above - below, 1.0)
-        x = np.where(inside, low - below * (high - low) / span, x)
+    inside = (below < -_CLOSE) & (above > _CLOSE)
+    x = np.where(below >= -_CLOSE, low, high)
+    side = np.zeros(guess.shape, dtype=int)
+    for i in range(_ROUNDS):
+        # a kink of the function slows regula falsi
+        part = 0.5 if i % 4 == 3 else -below / np.where(inside, above - below, 1.0)
+        x = np.where(inside, low + part * (high - low), x)
         found = excess(x)
-        if np.max(np.abs(found[0]) * inside) < _CLOSE:
+        inside &= np.abs(found[0]) >= _CLOSE
+        if not np.any(inside):
             break
         left = found[0] < 0
         old = np.where(left, below, above)
