@@ -31,7 +31,7 @@ STRENGTHENING, EXPONENT = "strengthening", "exponent"
 # The largest strengthening searched; exponents searched, and those of the lattice.
 LARGEST = 30.0
 EXPONENTS = (0.2, 0.8)
-_LATTICE = (0.2, 0.4, 0.6, 0.8)
+_LATTICE = (0.2, 0.32, 0.5, 0.8)
 # Of the lattice: its least growth, its margin beyond the largest one, and how much faster similar
 # solids may be.
 _LEAST, _MORE, _FASTER = 0.03, 1.5, 3.0

@@ -17,7 +17,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Passport
 from viscotack.simulate.crack_contact.by_crack import LEAST_TABOR
-from viscotack.theory.crack.contact.growing import lattice_spline
+from viscotack.theory.crack.contact.growing import LARGEST_ENERGY, lattice_spline
 
 from .contact_time import PER_DECADE, FoundAgeing
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
@@ -203,7 +203,8 @@ class Search:
     @classmethod
     def begun(cls, forward: Forward, series: RateSeries, least: float = LEAST_TABOR) -> "Search":
         """Return a search without growth or machine, down to an effective Tabor number."""
-        works, ranges = _works(forward, series, 1.0, _WORKS), np.geomspace(*series.gaps, _GAPS)
+        works = _works(series, 1 / forward.material.modulus_ratio, _WORKS)
+        ranges = np.geomspace(*series.gaps, _GAPS)
         # ranges valid for the largest work of adhesion; smaller ones are checked after the fit
         at = forward.pulled(works[-1], ranges[:, None], series.speed, series.load).effective_tabor
         holds = np.all(at >= least, axis=-1)
@@ -343,11 +344,9 @@ class Search:
         return forces * self.ratio(values)[..., some] / self.series.force[some] - 1
 
 
-def _works(forward: Forward, series: RateSeries, grown: float, per_decade: float) -> Array:
-    """Return the works of adhesion of a table, for a largest growth factor."""
-    # the energy of an opening edge is 1 to 1/k works of adhesion
-    most = series.largest_work
-    span = 2.0 * grown / forward.material.modulus_ratio
+def _works(series: RateSeries, energy: float, per_decade: float) -> Array:
+    """Return the works of adhesion of a table, for edges of at most an energy [works of it]."""
+    most, span = series.largest_work, 2.0 * energy
     return np.geomspace(most / span, most, 3 + round(per_decade * float(np.log10(span))))
 
 
@@ -375,8 +374,9 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     works, gaps, *steps = _COARSE
     growths = growth_parameters()
     ends = np.log(ranges[[0, -1]])
+    energy = min(growths[0].high / forward.material.modulus_ratio, LARGEST_ENERGY)
     axes = {
-        "work_of_adhesion": _works(forward, series, growths[0].high, np.log(10) / works),
+        "work_of_adhesion": _works(series, energy, np.log(10) / works),
         "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
     }
     for one, step in zip(growths, steps, strict=True):

@@ -35,10 +35,10 @@ from ._edge import Edge
 # slope, determined over this range of ln V.
 _ROWS, _LEAST_SLOPE, _NEAR = 500, 0.2, 0.5
 # Smallest and largest energy in the tables; beyond, they are extrapolated.
-_GAINED, _LIMIT = 1.0001, 250.0
+_GAINED, LARGEST_ENERGY = 1.0001, 250.0
 _ORDER = 3
 # Distance between growths of the lattice (ln), and Gamma - 1 of cracks close to elastic.
-_APART, _NOTHING = np.log(6.0), 1e-300
+_APART, _NOTHING = np.log(5.0), 1e-300
 # Effect of a stronger bulk on the energy of the interface, see :class:`NeighbourEdges`.
 _LONGER = 1.6
 _ROUND_OFF = 1e-9
@@ -88,24 +88,31 @@ class GrowingCracks:
         self._half = float(np.log(speeds[1] / speeds[0])) / 2
         self._exponents = n
         low, high = self._ends(n)
-        count = max(_ORDER + 1, 1 + int(np.ceil(np.max(high - low) / _APART)))
-        part = np.linspace(0.0, 1.0, count)
-        growth = np.exp(low + part[:, None] * (high - low))
-        v0 = speed_of_growth(growth, self._middle, n)
-
         reduced = material.reduced()
         base = LennardJones(1.0, 1.0) if base is None else base
+        # a smaller exponent needs fewer growths
+        counts = np.maximum(_ORDER + 1, 1 + np.ceil((high - low) / _APART).astype(int))
+        part = np.linspace(0.0, 1.0, int(counts.max()))
 
         def tabulated() -> dict[str, Array]:
-            cracks = [
-                SteadyCrack(reduced, GentSchultz(1.0, 1.0, float(v), float(x), base=base))
-                for row in v0
-                for v, x in zip(row, n, strict=True)
+            laws = [
+                (float(v), float(x))
+                for x, a, b, size in zip(n, low, high, counts, strict=True)
+                for v in speed_of_growth(np.exp(np.linspace(a, b, size)), self._middle, x)
             ]
-            ends = np.array([_tabulated(crack) for crack in cracks])
+            # in the order of the speeds, because near ones share the openings of the solid
+            cracks = {
+                law: SteadyCrack(reduced, GentSchultz(1.0, 1.0, *law, base=base))
+                for law in sorted(laws)
+            }
+            ends = np.array([_tabulated(crack) for crack in cracks.values()])
             log_speed = np.linspace(ends[:, 0].min(), ends[:, 1].max(), _ROWS)
-            tables = np.array([_table(crack, log_speed) for crack in cracks])
-            return {"log_speed": log_speed, "tables": tables.reshape(count, n.size, 2, _ROWS)}
+            tables = np.array([_table(cracks[law], log_speed) for law in laws])
+            columns = [
+                lattice_spline([np.linspace(0.0, 1.0, len(own))], own)(part[:, None])
+                for own in np.split(tables, np.cumsum(counts)[:-1])
+            ]
+            return {"log_speed": log_speed, "tables": np.stack(columns, axis=1)}
 
         found = kept(tabulated)
         self._log_speed = found["log_speed"]
@@ -169,7 +176,7 @@ class GrowingEdges:
         exponent: Array,
         which: npt.NDArray[np.intp],
     ) -> None:
-        self.modes, self.limit, self.exponent = modes, _LIMIT, exponent[which]
+        self.modes, self.limit, self.exponent = modes, LARGEST_ENERGY, exponent[which]
         self._first, self._per = log_speed[0], (_ROWS - 1) / (log_speed[-1] - log_speed[0])
         (self._gained, self._log_work), self._which = tables, which
 
@@ -242,7 +249,7 @@ def lattice_spline(axes: Sequence[Array], values: Array) -> scipy.interpolate.Nd
 
 def _tabulated(crack: SteadyCrack) -> tuple[float, float]:
     """Return ln of the speeds between which a crack is tabulated."""
-    last = 1 + (1 - 1e-6) * (min(crack.largest, _LIMIT) - 1)
+    last = 1 + (1 - 1e-6) * (min(crack.largest, LARGEST_ENERGY) - 1)
     first, end = np.log(np.asarray(crack.speed(np.array([_GAINED, last]))))
     return float(first), float(end)
 
