@@ -7,6 +7,7 @@ import pytest
 
 import viscotack as vt
 from viscotack.model.surfaces import HeightMap, bumps, self_affine, sphere
+from viscotack.simulate.grid import run
 from viscotack.simulate.rough import RoughProblem, pull
 
 RADIUS, GAP = 5e-3, 1.5e-6
@@ -79,6 +80,35 @@ def test_a_dead_load_falls_after_the_same_time():
     held = exact.events[-1].time * exact.problem.scales().time  # type: ignore[union-attr]
     assert found.events[-1].time == pytest.approx(held, rel=1e-2)
     assert found.events[-1].kind == "jump out of contact"
+
+
+@pytest.mark.parametrize("load", [0.5, -0.5])
+@pytest.mark.parametrize("refined", [True, False])
+def test_a_test_starts_at_its_load_with_what_lies_beyond_the_map(monkeypatch, refined, load):
+    traction = law(1.0)
+    start = vt.AtForce(load * 1.5 * np.pi * RADIUS * traction.work_of_adhesion)
+    surface = sphere(72, 8 * ALONG / 72, radius=RADIUS)
+    problem = rough(surface, traction=traction, protocol=vt.Retraction(start=start, speed=1e-5))
+    monkeypatch.setattr(run, "_COARSEST", 36 if refined else 72)
+    contact = problem.contact
+    found = run.relaxed(contact, problem.units.scaled(start))
+    assert contact.force_under(found.tension, found.depth) == pytest.approx(load, rel=1e-7)
+
+
+@pytest.mark.parametrize("start", [vt.AtForce(-1e-3), vt.AtForce(1e-3), vt.AtDepth(3e-6)])
+def test_a_start_refined_from_larger_pixels_is_that_of_a_slow_approach(monkeypatch, start):
+    problem = rough(protocol=vt.Retraction(start=start, speed=1e-5))
+    contact, begin = problem.contact, problem.units.scaled(start)
+    slow = run.relaxed(contact, begin)
+    monkeypatch.setattr(run, "_COARSEST", 16)
+    shapes, approached = [], run._approached
+    monkeypatch.setattr(
+        run, "_approached", lambda *a: shapes.append(a[0].plane.shape) or approached(*a)
+    )
+    found = run.relaxed(contact, begin)
+    assert shapes == [(16, 16)]
+    assert found.depth == pytest.approx(slow.depth, rel=1e-6)
+    np.testing.assert_allclose(found.gap, slow.gap, atol=1e-4)
 
 
 def flat(pixels=8, body=None):

@@ -27,7 +27,7 @@ from viscotack.files.whole import writing_whole
 EVERY = 30.0
 # Most bytes of a file: 8192 x 8192 pixels and 50 modes.
 _LARGEST = 6e10
-_NAME = re.compile(r"key|(loading|start|main|light)\.[a-z_]{1,20}")
+_NAME = re.compile(r"key|(start|main|light)\.[a-z_]{1,20}")
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -96,9 +96,8 @@ class Checkpoint:
         """Whether it is time to write again."""
         return perf_counter() - self.written >= self.every
 
-    def keep(self, name: str, arrays: Arrays, *, instead_of: str = "") -> None:
-        """Write the file with new arrays of a part, whole or not at all; drop another part."""
-        self.parts.pop(instead_of, None)
+    def keep(self, name: str, arrays: Arrays) -> None:
+        """Write the file with new arrays of a part, whole or not at all."""
         self.parts[name] = arrays
         flat = {f"{part}.{own}": a for part, held in self.parts.items() for own, a in held.items()}
         with writing_whole(self.path) as file:

@@ -44,7 +44,7 @@ from viscotack.simulate.machine import Hold
 # Residual of conjugate gradients relative to that of Newton's method, and their largest number.
 _INNER, _MOST_INNER = 0.03, 300
 # Weight of the elastic stiffness in the share of the law in the preconditioner.
-_SHARE = 0.1
+_SHARE = 0.01
 # Largest relative closing of a gap per iteration; the repulsion diverges beyond.
 _LARGEST_CLOSING = 0.3
 # Smallest mean of the tractions to which the unbalanced ones are related [strength of the law].

@@ -57,6 +57,14 @@ class MapContact:
         """Return the contact with its fields on another device."""
         return replace(self, plane=replace(self.plane, device=device))
 
+    def coarser(self) -> MapContact:
+        """Return the contact on pixels twice as large, each with the largest gap of its four."""
+        rows, columns = (side // 2 for side in self.plane.shape)
+        gap = self.rigid_gap.reshape(self.plane.shape)[: 2 * rows, : 2 * columns]
+        gap = gap.reshape(rows, 2, columns, 2).max((1, 3))
+        plane = replace(self.plane, shape=(rows, columns), pixel=2 * self.plane.pixel)
+        return replace(self, plane=plane, rigid_gap=gap.ravel())
+
     @property
     def span(self) -> float:
         """The range of the law [h0]."""

@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
-from viscotack.model.protocol import Apart, AtDepth, AtRadius, Start
+from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.simulate.grid.body import GridBody
 from viscotack.simulate.grid.checkpoint import Checkpoint
 from viscotack.simulate.grid.descent import Found, equilibrium
 from viscotack.simulate.grid.map_contact import MapContact
 from viscotack.simulate.grid.recorded import Fixed, Frames, GridRun
-from viscotack.simulate.grid.stored import (
-    continued,
-    found_arrays,
-    found_of,
-    loading_arrays,
-    loading_of,
-    run_arrays,
-)
+from viscotack.simulate.grid.stored import continued, run_arrays
 from viscotack.simulate.history import SMALLEST_ENERGY, EnergyTerms, History, Lowest
 from viscotack.simulate.machine import Hold, Leg
 from viscotack.simulate.march import through
@@ -35,67 +29,93 @@ _LOADINGS, _APART = 16, 4.0
 _MOST_LOADINGS = 400
 # Largest number of iterations of a relaxed state, which may jump into contact.
 _PATIENCE = 500
+# Fewest pixels along a side on which a relaxed state is found before it is refined.
+_COARSEST = 64
+# Largest relative change of the force beyond a map under a dead load, and trials of it.
+_TAIL, _TAILS = 1e-9, 50
 # Largest sum of unbalanced tractions of a relaxed state over that of all.
 _UNBALANCED = 1e-7
 
 
-def relaxed(
-    contact: MapContact, start: Start | Apart, checkpoint: Checkpoint | None = None
-) -> Found:
+def relaxed(contact: MapContact, start: Start | Apart) -> Found:
     """Return the relaxed state that a slow approach from far away reaches.
 
     Under a tensile force it is the contact that is left when a compressed one is unloaded.
+
+    A front of contact spreads by about a pixel per iteration. On many pixels it spreads on pixels
+    twice as large, and this state is corrected; the gap of a larger pixel is the largest of its
+    four, so that it comes into contact last.
     """
-    if checkpoint is None:
-        return _relaxed(contact, start, None)
-    found = checkpoint.part("start", partial(found_of, contact.plane))
+    found = None
+    if min(contact.plane.shape) >= 2 * _COARSEST and not isinstance(start, Apart):
+        with suppress(ArithmeticError):
+            found = _refined(contact, start)
     if found is None:
-        found = _relaxed(contact, start, checkpoint)
-        checkpoint.keep("start", found_arrays(found), instead_of="loading")
+        found = _approached(contact, start)
+    if isinstance(start, AtForce) and start.force < 0 and found.stable:
+        found = _under(contact, found, start.force)
+    if not found.stable:
+        raise ArithmeticError("no equilibrium of the surface was found")
     return found
 
 
-def _relaxed(contact: MapContact, start: Start | Apart, checkpoint: Checkpoint | None) -> Found:
+def _refined(contact: MapContact, start: Start) -> Found:
+    """Return the state in compression from that on pixels twice as large."""
+    if isinstance(start, AtForce):
+        start = AtForce(max(start.force, 0.0))
+    plane = contact.plane
+    coarse = contact.coarser()
+    found = relaxed(coarse, start)
+    rows, columns = (np.minimum(np.arange(n) // 2, n // 2 - 1) for n in plane.shape)
+    held = found.held.reshape(coarse.plane.shape)[rows[:, None], columns]
+    found = replace(found, moved=plane.moved(held))
+    if isinstance(start, AtForce):
+        return _under(contact, found, start.force)
+    return _at_depth(contact, found, found.depth)
+
+
+def _approached(contact: MapContact, start: Start | Apart) -> Found:
+    """Return the state in compression by steps of the depth."""
     plane, law, span = contact.plane, contact.law, contact.span
     apart = _APART * span
-
-    def at(depth: float, guess: Found | None) -> Found:
-        moved = plane.zeros() if guess is None else guess.moved
-        return _balanced(contact, moved, Hold(np.inf, depth=depth), depth)
-
-    def keep(found: Found, number: int, depth: float, step: float) -> None:
-        if checkpoint is not None and checkpoint.due:
-            checkpoint.keep("loading", loading_arrays(found, number, depth, step))
-
     if isinstance(start, Apart):
-        return _checked(at(1 - start.gap, None))
+        return _at_depth(contact, None, 1 - start.gap)
     if isinstance(start, AtRadius):
         raise InputError("a map has no contact radius to start at; give a depth or a force")
-    begun = None if checkpoint is None else checkpoint.part("loading", partial(loading_of, plane))
+    found = None
     if isinstance(start, AtDepth):
-        found, first = (None, 0) if begun is None else begun[:2]
-        depths = np.linspace(-apart, start.depth, _LOADINGS)
-        for number in range(first, _LOADINGS):
-            found = at(float(depths[number]), found)
-            keep(found, number + 1, start.depth, 0.0)
+        for depth in np.linspace(-apart, start.depth, _LOADINGS):
+            found = _at_depth(contact, found, float(depth))
         assert found is not None
-        return _checked(found)
+        return found
     deepest = np.inf if not plane.mean_is_zero else float(contact.rigid_gap.mean()) - 1
-    found, first = None, 0
     depth, step = min(-apart, deepest), 0.25 * contact.travel
-    if begun is not None:
-        found, first, depth, step = begun
-    for number in range(first, _MOST_LOADINGS):
-        found = at(depth, found)
+    for _ in range(_MOST_LOADINGS):
+        found = _at_depth(contact, found, depth)
         force = contact.force_under(found.tension, depth)
         touches = bool((found.gap < law.edge_gap).any())
         if depth >= deepest or (touches and force >= max(start.force, 0.0)):
             break
         depth, step = min(depth + step, deepest), 1.2 * step
-        keep(found, number + 1, depth, step)
     assert found is not None
-    load = (start.force - contact.tail_force(depth)) / (contact.unit * contact.area)
-    return _checked(_balanced(contact, found.moved, Hold(0.0, load=load), depth))
+    return _under(contact, found, max(start.force, 0.0))
+
+
+def _at_depth(contact: MapContact, guess: Found | None, depth: float) -> Found:
+    moved = contact.plane.zeros() if guess is None else guess.moved
+    return _balanced(contact, moved, Hold(np.inf, depth=depth), depth)
+
+
+def _under(contact: MapContact, guess: Found, force: float) -> Found:
+    """Return the equilibrium under a dead load; what lies beyond the map pulls as well."""
+    found = guess
+    for _ in range(_TAILS):
+        tail = contact.tail_force(found.depth)
+        load = (force - tail) / (contact.unit * contact.area)
+        found = _balanced(contact, found.moved, Hold(0.0, load=load), found.depth)
+        if not found.stable or abs(contact.tail_force(found.depth) - tail) <= _TAIL * abs(tail):
+            break
+    return found
 
 
 def _balanced(contact: MapContact, moved: npt.NDArray, hold: Hold, depth: float) -> Found:
@@ -110,12 +130,6 @@ def _balanced(contact: MapContact, moved: npt.NDArray, hold: Hold, depth: float)
         tolerance=_UNBALANCED,
         most_iterations=_PATIENCE,
     )
-
-
-def _checked(found: Found) -> Found:
-    if found.stable:
-        return found
-    raise ArithmeticError("no equilibrium of the surface was found")
 
 
 def march_on_grid(

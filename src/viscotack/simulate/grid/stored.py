@@ -43,18 +43,6 @@ def found_of(plane: Plane, arrays: Arrays) -> Found:
     return Found(**fields, **_values(arrays["about"]))
 
 
-def loading_arrays(found: Found, number: int, depth: float, step: float) -> Arrays:
-    """Return a state on the way to the relaxed start as arrays, with its place on the way."""
-    way = {"number": number, "depth": depth, "step": step}
-    return found_arrays(found) | {"way": _text(way)}
-
-
-def loading_of(plane: Plane, arrays: Arrays) -> tuple[Found, int, float, float]:
-    """Reconstruct the state and its place from the output of :func:`loading_arrays`."""
-    way = _values(arrays["way"])
-    return found_of(plane, arrays), way["number"], way["depth"], way["step"]
-
-
 def run_arrays(run: GridRun, at: MarchState, counted: tuple[int, int, int]) -> Arrays:
     """Return a run and its present place as arrays.
 

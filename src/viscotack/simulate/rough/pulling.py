@@ -7,6 +7,7 @@ import json
 import os
 from collections.abc import Callable
 from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -28,6 +29,7 @@ from viscotack.simulate.grid.map_contact import MapContact
 from viscotack.simulate.grid.plane import Device, Plane, memory
 from viscotack.simulate.grid.recorded import Frame, GridRun
 from viscotack.simulate.grid.run import march_on_grid, relaxed
+from viscotack.simulate.grid.stored import found_arrays, found_of
 from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import modes_of_run
@@ -147,7 +149,11 @@ def pull(
     check_memory(contact.plane, 0)
     with limited(time_limit), set_workers(threads):
         try:
-            start = relaxed(contact, problem.units.scaled(problem.protocol.start), kept)
+            start = None if kept is None else kept.part("start", partial(found_of, contact.plane))
+            if start is None:
+                start = relaxed(contact, problem.units.scaled(problem.protocol.start))
+                if kept is not None:
+                    kept.keep("start", found_arrays(start))
         except TimeUp as limit:
             raise InputError(f"{limit} before the relaxed start was found") from None
         except ArithmeticError as reason:
