@@ -126,6 +126,7 @@ def flat(pixels=8, body=None):
 def test_a_flat_map_on_a_half_space_has_the_strength_of_the_law():
     found = pull(flat())
     # the mean plane is held, so that nothing jumps and the curve is the law's
+    assert len(found.force) < 150  # rounding that lets the mean drift makes steps ever shorter
     assert found.pull_off_stress == pytest.approx(SOFT.strength, rel=1e-3)
     assert found.work_of_separation / found.nominal_area == pytest.approx(0.15, rel=2e-3)
     assert found.area.max() == found.nominal_area

@@ -340,7 +340,10 @@ def _direction(
         p *= product / before
         p += z
         d = y + (product / before) * d
-    return x.astype(float), lowered, stable
+    x = x.astype(float)
+    if tangent.plane.mean_is_zero:  # prolonging magnifies a mean that rounding has left
+        x -= x.mean()
+    return x, lowered, stable
 
 
 def _admitted(
