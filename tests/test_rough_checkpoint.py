@@ -65,7 +65,7 @@ def assert_same(found, whole):
 
 @pytest.mark.parametrize("share", [0.3, pytest.param(0.8, marks=pytest.mark.slow)])
 def test_a_killed_run_continues_to_the_same_digits(tmp_path, whole, share):
-    # in the retraction of the run, and in that of the run with coarser steps
+    # in the retraction of the run, and after it
     path = tmp_path / "run.npz"
     child = subprocess.Popen(
         [sys.executable, "-c", SCRIPT, str(path), str(share)],
@@ -86,4 +86,4 @@ def test_a_killed_run_continues_to_the_same_digits(tmp_path, whole, share):
     assert_same(found, whole)
     again = []
     assert_same(pull(problem(), **HOW, checkpoint=path, progress=again.append), whole)
-    assert not again  # the finished run is in the file
+    assert min(again) > 0.8  # the finished run is in the file; those for its errors are not

@@ -197,13 +197,26 @@ def test_faster_pulls_of_a_rough_map_take_more():
     assert fast.pull_off_force > 1.5 * slow.pull_off_force
 
 
-def test_stated_errors_hold_against_a_better_accuracy():
-    problem = rough()
-    found, better = pull(problem), pull(problem, accuracy=2e-4, estimate_error=False)
-    away = abs(found.pull_off_force / better.pull_off_force - 1)
-    assert away < found.error_estimate["force"] < 0.03
-    away = abs(found.work_of_separation / better.work_of_separation - 1)
-    assert away < found.error_estimate["work"] < 0.06
+def test_a_load_is_the_same_on_larger_pixels():
+    contact = rough(self_affine(64, 6e-6, hurst=0.3, rms_height=2e-6, seed=5)).contact
+    assert contact.coarser().unit == contact.every_second(1, 0).unit == contact.unit
+    assert contact.coarser().curvature != contact.curvature
+
+
+@pytest.mark.parametrize("solid", [ELASTIC, VISCOUS])
+def test_stated_errors_hold_against_pixels_half_as_large(solid):
+    fine = self_affine(64, 6e-6, hurst=0.8, rms_height=2.5e-6, seed=5, shortest=8e-5)
+    coarse = replace(fine, heights=fine.heights[::2, ::2], pixel=2 * fine.pixel)
+    test = vt.Retraction(start=vt.AtForce(0.05 * SOFT.strength * fine.area), speed=2e-5)
+    found = pull(rough(coarse, material=solid, protocol=test))
+    better = pull(rough(fine, material=solid, protocol=test), accuracy=5e-4, estimate_error=False)
+    for name, value, true in (
+        ("force", found.pull_off_force, better.pull_off_force),
+        ("work", found.work_of_separation, better.work_of_separation),
+        ("area", found.area.max(), better.area.max()),
+    ):
+        away = abs(value / true - 1)
+        assert away < found.error_estimate[name] < 30 * away
 
 
 def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
@@ -224,7 +237,7 @@ def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
     at = found.at_pull_off
     assert (found.patches[at], found.area[at]) == (4, pytest.approx(16 * pixel**2))
     off = abs(found.pull_off_force / fine.pull_off_force - 1)
-    assert 0.15 < off < found.error_estimate["force"] < 1.2 * off
+    assert 0.15 < off < found.error_estimate["force"] < 1.5 * off
 
 
 @pytest.mark.parametrize(

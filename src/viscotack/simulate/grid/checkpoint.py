@@ -27,7 +27,7 @@ from viscotack.files.whole import writing_whole
 EVERY = 30.0
 # Most bytes of a file: 8192 x 8192 pixels and 50 modes.
 _LARGEST = 6e10
-_NAME = re.compile(r"key|(start|main|light)\.[a-z_]{1,20}")
+_NAME = re.compile(r"key|(start|main)\.[a-z_]{1,20}")
 
 Arrays = dict[str, npt.NDArray[Any]]
 

@@ -41,6 +41,8 @@ class MapContact:
         Gap [h0] at depth 0 over the undeformed surface; 1 at the highest point.
     law : Traction
         Reduced traction law.
+    force : float
+        Unit of force [dg l^2/h0].
     beyond : float or None
         Radius R of the paraboloid in which the map continues [l^2/h0]; None if nothing does.
     apex : float
@@ -50,6 +52,7 @@ class MapContact:
     plane: Plane
     rigid_gap: npt.NDArray
     law: Traction
+    force: float
     beyond: float | None = None
     apex: float = 1.0
 
@@ -61,8 +64,16 @@ class MapContact:
         """Return the contact on pixels twice as large, each with the largest gap of its four."""
         rows, columns = (side // 2 for side in self.plane.shape)
         gap = self.rigid_gap.reshape(self.plane.shape)[: 2 * rows, : 2 * columns]
-        gap = gap.reshape(rows, 2, columns, 2).max((1, 3))
-        plane = replace(self.plane, shape=(rows, columns), pixel=2 * self.plane.pixel)
+        return self._on_larger(gap.reshape(rows, 2, columns, 2).max((1, 3)))
+
+    def every_second(self, row: int, column: int) -> MapContact:
+        """Return the contact on pixels twice as large, of every second row and column from some."""
+        rows, columns = (side - side % 2 for side in self.plane.shape)
+        gap = self.rigid_gap.reshape(self.plane.shape)
+        return self._on_larger(gap[row:rows:2, column:columns:2])
+
+    def _on_larger(self, gap: npt.NDArray) -> MapContact:
+        plane = replace(self.plane, shape=gap.shape, pixel=2 * self.plane.pixel)
         return replace(self, plane=plane, rigid_gap=gap.ravel())
 
     @property
@@ -85,12 +96,6 @@ class MapContact:
         """Root mean square of the curvature of the map [h0/l^2]."""
         gap = self.rigid_gap.reshape(self.plane.shape)
         return rms_curvature(gap, self.plane.pixel, self.plane.periodic)
-
-    @cached_property
-    def force(self) -> float:
-        """Unit of force [dg l^2/h0]: the pull-off of one asperity by JKR, or of the whole map."""
-        whole = self.law.strength * self.area * self.rigid_gap.size
-        return whole if self.curvature == 0 else min(1.5 * np.pi / self.curvature, whole)
 
     @property
     def unit(self) -> float:
@@ -142,3 +147,12 @@ class MapContact:
         return np.maximum(
             self.apex + (half / np.cos(_ANGLES)) ** 2 / (2 * self.beyond) - depth, 0.5
         )
+
+
+def unit_of_force(curvature: float, law: Traction, area: float) -> float:
+    """Return a unit of force [dg l^2/h0]: the pull-off of one asperity by JKR, or of the whole map.
+
+    `curvature` is the root mean square of that of the map [h0/l^2], `area` that of the map [l^2].
+    """
+    whole = law.strength * area
+    return whole if curvature == 0 else min(1.5 * np.pi / curvature, whole)

@@ -24,6 +24,8 @@ from viscotack.simulate.march import through
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.state import MarchState
 
+# Part of a checkpoint.
+_MAIN = "main"
 # Steps in which a relaxed contact is loaded, and gap [range of the law] from which.
 _LOADINGS, _APART = 16, 4.0
 _MOST_LOADINGS = 400
@@ -142,7 +144,6 @@ def march_on_grid(
     stiffness: float | None = None,
     frames: int = 0,
     checkpoint: Checkpoint | None = None,
-    part: str = "main",
     progress: Callable[[float], None] | None = None,
 ) -> GridRun:
     """Integrate a relaxed body through all legs; see :func:`viscotack.simulate.march.march`.
@@ -152,7 +153,7 @@ def march_on_grid(
     """
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
     body = GridBody(contact, modes, np.asarray(modes.weights))
-    keeper = _Keeper(checkpoint, part)
+    keeper = _Keeper(checkpoint)
     run = GridRun(body, settings, legs, False, history, frames=Frames(frames), told=keeper.take)  # type: ignore[arg-type]
     at = keeper.begun(run)
     if at is None:
@@ -166,10 +167,10 @@ def march_on_grid(
 
 
 class _Keeper:
-    """Writes a run to its part of a checkpoint, now and then and at its end."""
+    """Writes a run to a checkpoint, now and then and at its end."""
 
-    def __init__(self, checkpoint: Checkpoint | None, part: str) -> None:
-        self.checkpoint, self.part = checkpoint, part
+    def __init__(self, checkpoint: Checkpoint | None) -> None:
+        self.checkpoint = checkpoint
         self.run: GridRun | None = None
         self.at: MarchState | None = None
         self.counted = (0, 0, 0)
@@ -179,7 +180,7 @@ class _Keeper:
         self.run = run
         if self.checkpoint is None:
             return None
-        return self.checkpoint.part(self.part, lambda arrays: continued(run, arrays))
+        return self.checkpoint.part(_MAIN, lambda arrays: continued(run, arrays))
 
     def take(self, at: MarchState) -> None:
         """Take a place that is kept, and write it if it is time."""
@@ -202,4 +203,4 @@ class _Keeper:
 
     def _write(self) -> None:
         assert self.run is not None and self.at is not None and self.checkpoint is not None
-        self.checkpoint.keep(self.part, run_arrays(self.run, self.at, self.counted))
+        self.checkpoint.keep(_MAIN, run_arrays(self.run, self.at, self.counted))

@@ -23,8 +23,9 @@ from viscotack.model.geometry import HalfSpace, Layer
 from viscotack.model.problem.units import time_unit
 from viscotack.model.protocol import Apart, Approach, AtRadius, Retract, Retraction, Units
 from viscotack.model.surfaces import HeightMap, Roughness, roughness
+from viscotack.model.surfaces.statistics import rms_curvature
 from viscotack.model.traction import Traction, effective_range, has_rest, softening
-from viscotack.simulate.grid.map_contact import MapContact
+from viscotack.simulate.grid.map_contact import MapContact, unit_of_force
 from viscotack.simulate.grid.plane import Plane
 
 # Length of the zone in l, of a law as long as Lennard-Jones.
@@ -190,7 +191,10 @@ class RoughProblem:
             self.body.reduced(along),
             surface.periodic,
         )
-        return MapContact(plane, rigid, self.traction.reduced(), beyond, 1 + top / h0)
+        law, gap = self.traction.reduced(), rigid.reshape(plane.shape)
+        curvature = rms_curvature(gap, plane.pixel, plane.periodic)
+        unit = unit_of_force(curvature, law, rigid.size * plane.pixel**2)
+        return MapContact(plane, rigid, law, unit, beyond, 1 + top / h0)
 
     @cached_property
     def force(self) -> float:

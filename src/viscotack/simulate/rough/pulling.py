@@ -22,7 +22,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.model.traction import Tabulated
 from viscotack.result import Event, Outcome
 from viscotack.simulate.bounds import check_clock
-from viscotack.simulate.estimate import COARSER, from_difference
+from viscotack.simulate.estimate import COARSER
 from viscotack.simulate.grid.checkpoint import EVERY, Checkpoint
 from viscotack.simulate.grid.descent import Found
 from viscotack.simulate.grid.map_contact import MapContact
@@ -39,21 +39,21 @@ from viscotack.version import __version__
 from .problem import COARSE, COARSEST, FINE, RoughProblem
 from .result import FieldMap, RoughResult
 
-# Largest relative error of the force by pixels per zone, measured on spheres (research/grid.py
-# pixels); that of an elastic solid, whose edge moves from pixel to pixel.
-_PIXELS = (1.0, 1.5, 2.0, 3.0, 4.0)
-_ERRORS = (0.12, 0.05, 0.02, 4.5e-3, 1.3e-3)
-# Relative error of the force times the number of pixels of a patch of contact at the largest
-# tension: what pixels do not know of the summits between them. Equal bumps of 4 and 12 pixels with
-# 1.7 pixels in a zone differ by 0.66 to 0.71 over this number from pixels half as large.
-_FEW = 0.7
-# Error of the work by pixels over that of the force, of viscoelastic and of elastic solids.
-_WORK = (2.0, 3.0)
-_SMALLEST = 1e-300
+# The error of pixels, from runs on every second pixel of rows and columns: on two sets of pixels,
+# because edges are caught by chance.
+_FIRST_PIXELS = ((0, 0), (1, 1))
+# Factor on the larger difference for viscoelastic and for elastic solids, whose edges only pixels
+# hold. The difference to pixels half as large is about a sixth of it.
+_FACTOR = 0.5, 0.75
+# Smallest error as a fraction of the accuracy.
+_FLOOR = 0.4
+# Error of the force times the square of the number of pixels of a patch of contact at the largest
+# tension: what pixels do not know of the summits between them, if no run on larger ones sees it.
+_FEW = 2.8
 # Bytes per pixel, and per pixel and mode of the solid, of periodic and of other maps.
 _BYTES = {True: (400, 50), False: (850, 55)}
 # Share of the main run in the total work.
-_MAIN = 0.65
+_MAIN = 0.8
 
 
 def pull(
@@ -80,8 +80,8 @@ def pull(
         Relative error of the pull-off force that steps and modes of the solid are made for; the
         error of the pixels is that of the map.
     estimate_error : bool
-        Whether errors are estimated, from a second run with coarser steps, which takes half as
-        long, and the pixels per zone.
+        Whether errors are estimated, from two runs with coarser steps on pixels twice as large,
+        which take about a quarter as long.
     maps : int
         Up to how many maps of gap and pressure are kept, besides that of the largest tension.
     time_limit : float, optional
@@ -158,14 +158,11 @@ def pull(
             raise InputError(f"{limit} before the relaxed start was found") from None
         except ArithmeticError as reason:
             raise InputError(f"the relaxed start was not found: {reason}") from None
-        run = _run(problem, contact, start, settings, maps, kept, "main", part(0.0, share))
+        run = _run(problem, contact, start, settings, maps, kept, part(0.0, share))
         result = _result(problem, run, warnings)
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            coarser = settings.coarser(COARSER)
-            light = _run(problem, contact, start, coarser, 0, kept, "light", part(share, 1.0))
-            coarse = _result(problem, light, ())
-            if coarse.outcome is not Outcome.STOPPED:
-                result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
+            errors = _errors(problem, result, settings, contact, part(share, 1.0))
+            result = replace(result, error_estimate=errors)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     return replace(result, statistics=statistics)
 
@@ -194,7 +191,6 @@ def _run(
     settings: Settings,
     maps: int,
     kept: Checkpoint | None,
-    part: str,
     progress: Callable[[float], None] | None,
 ) -> GridRun:
     """Simulate the test."""
@@ -218,7 +214,6 @@ def _run(
         stiffness=stiffness,
         frames=maps,
         checkpoint=kept,
-        part=part,
         progress=progress,
     )
 
@@ -254,7 +249,8 @@ class _Start(NamedTuple):
 
 def _result(problem: RoughProblem, run: GridRun, warnings: tuple[str, ...]) -> RoughResult:
     """Return the result of a run in SI."""
-    history, law, pixel = run.history, problem.traction, problem.surface.pixel
+    history, law = run.history, problem.traction
+    pixel = run.body.contact.plane.pixel * problem.length  # type: ignore[union-attr]
     h0, force_unit, time = law.equilibrium_gap, problem.force, problem.time
     energy = force_unit * h0
     force, depth = history.seen("force"), history.seen("depth")
@@ -303,25 +299,36 @@ def _result(problem: RoughProblem, run: GridRun, warnings: tuple[str, ...]) -> R
 
 
 def _errors(
-    problem: RoughProblem, result: RoughResult, coarse: RoughResult, accuracy: float
-) -> dict[str, float]:
-    """Return the relative errors of force and work: of the pixels, and of steps and modes."""
-    pixels = float(np.exp(np.interp(np.log(problem.zone.pixels), np.log(_PIXELS), np.log(_ERRORS))))
-    at = result.at_pull_off
+    problem: RoughProblem,
+    result: RoughResult,
+    settings: Settings,
+    contact: MapContact,
+    progress: Callable[[float], None] | None,
+) -> dict[str, float] | None:
+    """Return the relative errors by name; None where a run on larger pixels has no answer."""
+    found, most = _measures(result), dict[str, float]()
+    for many, (row, column) in enumerate(_FIRST_PIXELS, 1):
+        larger = contact.every_second(row, column)
+        try:
+            start = relaxed(larger, problem.units.scaled(problem.protocol.start))
+        except (ArithmeticError, TimeUp):
+            return None
+        run = _run(problem, larger, start, settings.coarser(COARSER), 0, None, None)
+        other = _result(problem, run, ())
+        if other.outcome is Outcome.STOPPED:
+            return None
+        for name, value in _measures(other).items():
+            if found.get(name):
+                most[name] = max(most.get(name, 0.0), abs(value / found[name] - 1))
+        if progress is not None:
+            progress(many / len(_FIRST_PIXELS))
+    at, factor = result.at_pull_off, _FACTOR[problem.material.modulus_ratio == 1]
     touching = result.area[at] / result.pixel**2 / max(result.patches[at], 1)
-    pixels = float(np.hypot(pixels, _FEW / max(touching, 1.0)))
-    found = {"force": pixels}
-    pairs = {"force": (result.pull_off_force, coarse.pull_off_force)}
-    if result.has_separated and coarse.has_separated:
-        elastic = problem.material.modulus_ratio == 1
-        # what the balance misses; before a jump the work may be a small part of all energies
-        lost = (
-            result.energy_residual * result.hysteresis / max(result.work_of_separation, _SMALLEST)
-        )
-        found["work"] = float(np.hypot(_WORK[elastic] * pixels, lost))
-        pairs["work"] = (result.work_of_separation, coarse.work_of_separation)
-    for name, (value, other) in pairs.items():
-        if (scale := max(value, other)) > 0:
-            steps = from_difference(name, abs(value - other) / scale, accuracy)
-            found[name] = float(np.hypot(found[name], steps))
-    return found
+    least = np.hypot(_FLOOR * settings.accuracy, _FEW / max(touching, 1.0) ** 2)
+    return {name: float(np.hypot(factor * share, least)) for name, share in most.items()}
+
+
+def _measures(result: RoughResult) -> dict[str, float]:
+    """Return the numbers of a result whose errors are stated."""
+    found = {"force": result.pull_off_force, "area": float(result.area.max())}
+    return found | ({"work": result.work_of_separation} if result.has_separated else {})

@@ -61,7 +61,8 @@ class RoughResult:
     energy_residual : float
         Largest imbalance of the energies over the largest cumulative term.
     error_estimate : dict or None
-        Relative errors of ``force`` (largest tension) and ``work`` (of separation).
+        Relative errors of ``force`` (largest tension), ``work`` (of separation) and ``area`` (the
+        largest of the contact); None if they are not estimated.
     warnings : tuple of str
         What makes the answer less certain than stated.
     strongest : FieldMap
@@ -168,6 +169,7 @@ class RoughResult:
             "contact_share_at_pull_off": float(self.area[at]) / self.nominal_area,
             "patches_at_pull_off": int(self.patches[at]),
             "largest_contact_share": float(self.area.max()) / self.nominal_area,
+            "largest_contact_share_error": errors.get("area"),
             "work_of_separation_J": self.work_of_separation if separated else None,
             "work_of_separation_error": errors.get("work") if separated else None,
             "hysteresis_J": self.hysteresis,
