@@ -2,11 +2,16 @@
 
 import codecs
 import csv
+import io
 import os
 import re
+from collections.abc import Mapping
+from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.units import is_number
+
+from .whole import Target, write_whole
 
 # Largest text that a user gives, such as a table of a million cases [bytes].
 LARGEST_TEXT = 100_000_000
@@ -121,3 +126,23 @@ def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, 
         raise InputError(f"{os.fspath(path)}, line {reader.line_num}: {error}") from None
     header = [name.strip() for name in rows[0][1]] if rows else []
     return header, rows[1:]
+
+
+def write_table(table: Mapping[str, Any], path: Target) -> None:
+    """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(map(cell, table))
+    rows.writerows(zip(*map(_cells, table.values()), strict=True))
+    write_whole(path, text.getvalue().encode())
+
+
+def _cells(values: Any) -> list[Any]:
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+        if values and isinstance(values[0], bool):
+            return ["true" if value else "false" for value in values]
+    return [
+        cell(value) if isinstance(value, str) else "" if value != value else value
+        for value in values
+    ]

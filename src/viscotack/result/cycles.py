@@ -1,13 +1,12 @@
 """Cycles of a test: snap-in, peak compression, pull-off, work and hysteresis of each."""
 
-import csv
-import io
 from dataclasses import dataclass
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.files.whole import Target, write_whole
+from viscotack.files.text import write_table
+from viscotack.files.whole import Target
 
 from . import Outcome, Result
 from .loops import Loop, loop_of, lost_in
@@ -168,11 +167,8 @@ def write_cycles(result: Result, path: Target) -> None:
     >>> file.getvalue().decode().split(",")[:3]
     ['cycle', 'begin', 'end']
     """
-    rows, text = cycle_rows(result), io.StringIO()
-    table = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    table.writeheader()
-    table.writerows(rows)
-    write_whole(path, text.getvalue().encode())
+    rows = cycle_rows(result)
+    write_table({name: [row[name] for row in rows] for name in rows[0]}, path)
 
 
 def _known(value: float) -> float | None:

@@ -12,7 +12,6 @@ and summaries (:mod:`viscotack.model.problem.outputs`) give stress, ligament, cr
 of separation.
 """
 
-import csv
 import io
 import json
 import os
@@ -30,6 +29,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.frame import frame
+from viscotack.files.text import write_table
 from viscotack.files.whole import Target, write_whole
 from viscotack.model.problem import Case, Groups, Problem, PunchScales, Scales
 from viscotack.model.problem.record import from_dict, to_dict
@@ -518,11 +518,7 @@ def write_csv(result: Result, path: Target) -> None:
     >>> file.getvalue().decode().split(",")[:3]
     ['time', 'depth', 'force']
     """
-    table, text = columns(result), io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(table)
-    rows.writerows(zip(*(v.tolist() for v in table.values()), strict=True))
-    write_whole(path, text.getvalue().encode())
+    write_table(columns(result), path)
 
 
 def save(result: Result, path: Target) -> None:

@@ -104,12 +104,11 @@ class Predict(Request):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
+        from viscotack.files.text import write_table
         from viscotack.prediction import predict
         from viscotack.prediction.prediction import prediction_summary
         from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome
-
-        from .parts.tables import write_table
 
         stated = self.stated(caller)
         if table := sorted(caller.wants & {"csv", "xlsx"}):

@@ -6,12 +6,12 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.files.text import write_table
 
 from .options import Number, contact, csv_file, number, picture, quoted
 from .parts.closed_form import closed_form
 from .parts.layer import OnLayer
 from .parts.record_words import read
-from .parts.tables import write_table
 from .request import Answer, Caller, Request
 
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0)

@@ -10,6 +10,7 @@ import numpy as np
 from viscotack.campaign.listed import EMPTY, read_words
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
+from viscotack.files.text import write_table
 from viscotack.files.whole import Target
 from viscotack.model.problem.changes import Changes, changes_of
 from viscotack.model.problem.kinds import plain_heading
@@ -28,7 +29,7 @@ from viscotack.units import is_number
 from ..request import Answer, Told
 from ..statement import Statement
 from .record_words import units_of
-from .tables import Writer, write_table
+from .tables import Writer
 from .workbook import write_workbook
 
 Rows = Sequence[Mapping[str, Any]]

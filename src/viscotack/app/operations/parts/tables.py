@@ -1,13 +1,9 @@
 """Writers of outputs: rows as CSV, and text."""
 
-import csv
-import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from viscotack.files.text import cell
+from viscotack.files.text import write_table
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
@@ -37,22 +33,3 @@ def as_text(text: Callable[[], str]) -> Writer:
         write_whole(target, text().encode())
 
     return write
-
-
-def write_table(table: Mapping[str, Any], path: "Target") -> None:
-    """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
-    from viscotack.files.whole import write_whole
-
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(map(cell, table))
-    rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
-    write_whole(path, text.getvalue().encode())
-
-
-def _cells(values: Any) -> list[Any]:
-    if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
-        return [cell(value) if isinstance(value, str) else value for value in values]
-    if values.dtype.kind == "b":
-        return ["true" if value else "false" for value in values.tolist()]
-    return ["" if value != value else value for value in values.tolist()]
