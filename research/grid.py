@@ -200,8 +200,8 @@ def rough(given):
         except InputError:
             continue
         better = pull(fine, accuracy=5e-4, estimate_error=False, time_limit=4 * given.limit)
-        if vt.Outcome.STOPPED in (found.outcome, better.outcome):
-            print(f"{found.status}; {better.status}", flush=True)
+        if vt.Outcome.STOPPED in (found.outcome, better.outcome) or found.error_estimate is None:
+            print(f"{found.status}; {better.status}; {found.error_estimate}", flush=True)
             continue
         about = (
             f"k {fine.material.modulus_ratio:.3g}, {fine.zone.pixels / 2:.2f} px, "
