@@ -1,11 +1,18 @@
-"""What others published, done again: ``python -m research.replication --list``, ``figure``."""
+"""Do again what others published about detachment, and say whether it holds.
 
+Run it from the root of the checkout. Numbers of figures are kept in replication/kept, so that a
+picture takes a second; --afresh makes them from nothing. For example, a figure, a claim, and all:
+
+  python -m research.replication figure 4.6
+  python -m research.replication claim alpha --afresh
+  python -m research.replication --all
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated
-
-import typer
-from typer import Option
 
 from .archive import file_of
 from .bench import Bench, picture
@@ -16,130 +23,65 @@ from .ledger.claim import named
 from .ledger.page import PAGE, page
 from .ledger.page import ledger as whole_ledger
 from .table import read_detachments
-from .words import application, wrong_input
 
-app = application()
-
-_OUT = Path("out/replication")
-_Afresh = Annotated[
-    bool, Option("--afresh", help="Make the numbers again instead of taking those that are kept.")
-]
-_Workers = Annotated[
-    int, Option("--workers", metavar="N", min=1, help="Processes of this machine.")
-]
-_Folder = Annotated[
-    Path, Option("--out", metavar="DIR", help="Folder of the pictures; made if missing.")
-]
-_Archive = Annotated[
-    Path | None,
-    Option(
-        "--archive",
-        metavar="DIR",
-        help="A checkout of the authors' public archive, for what is made of its rows.",
-        show_default=False,
-    ),
-]
+Given = argparse.Namespace
 
 
-@app.callback(invoke_without_command=True, no_args_is_help=True)
-def contents(
-    listed: Annotated[
-        bool, Option("--list", help="Each figure: what it claims, needs and costs.")
-    ] = False,
-    every: Annotated[
-        bool, Option("--all", help="Every figure and table, and the ledger of claims.")
-    ] = False,
-    afresh: _Afresh = False,
-    workers: _Workers = 2,
-    out: _Folder = _OUT,
-    archive: _Archive = None,
-) -> None:
-    """Do again what others published about detachment, and say whether it holds.
-
-    Run it from the root of the checkout. Numbers of figures are kept in replication/kept, so that
-    a picture takes a second; --afresh makes them from nothing.
-
-    Example: python -m research.replication figure 4.6
-    """
-    if listed:
-        typer.echo("\n\n".join(each.words() for each in figures().values()))
-    if every:
-        with wrong_input():
-            _all(afresh, workers, out, archive)
+def contents(given: Given) -> None:
+    """List the figures, or draw all there is and measure all claims."""
+    if given.listed:
+        print("\n\n".join(each.words() for each in figures().values()))
+    if not given.all:
+        if not given.listed:
+            _parser().print_help()
+        return
+    began = perf_counter()
+    with _bench(given) as bench:
+        for name in figures():
+            path = picture(name, bench.of(name), given.out)
+            beside = f", {_beside(bench, name, kept(name))}" if given.afresh else ""
+            print(f"{path}{beside}")
+        if given.afresh and given.archive is not None:
+            _published(given)
+        _write_ledger(whole_ledger(bench.of), given.out)
+        print(f"{given.out / 'ledger.md'}: every verdict stands")
+        spent = sum(bench.spent.values()) if given.afresh else bench.seconds
+    print(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
 
 
-@app.command(no_args_is_help=True)
-def figure(
-    name: Annotated[str, typer.Argument(help="Number in the thesis: 4.6, table-5.1, A.3.")],
-    afresh: _Afresh = False,
-    keep: Annotated[
-        bool, Option("--keep", help="Keep what is made afresh in the repository.")
-    ] = False,
-    workers: _Workers = 2,
-    out: _Folder = _OUT,
-    svg: Annotated[bool, Option("--svg", help="SVG instead of PNG.")] = False,
-    archive: _Archive = None,
-) -> None:
-    """Draw a figure or a table, and say what it claims, needs and costs.
-
-    Example: python -m research.replication figure 4.6 --afresh
-    """
-    options = {"afresh": afresh, "store": keep, "archive": archive, "say": _progress}
-    with wrong_input(), Bench(workers, **options) as bench:
+def figure(given: Given) -> None:
+    """Draw a figure or a table, and say what it claims, needs and costs."""
+    name = given.name
+    with _bench(given) as bench:
         drawn = figure_named(name)
         before = kept(name) if path_of(name).exists() else None
-        path = picture(name, bench.of(name), out, ending="svg" if svg else "png")
-        typer.echo(drawn.words())
-    if afresh and before is not None:
-        typer.echo(f"  Beside the numbers that were kept: {_beside(bench, name, before)}")
-    typer.echo(f"wrote {path}")
+        path = picture(name, bench.of(name), given.out, ending="svg" if given.svg else "png")
+        print(drawn.words())
+    if given.afresh and before is not None:
+        print(f"  Beside the numbers that were kept: {_beside(bench, name, before)}")
+    print(f"wrote {path}")
 
 
-@app.command(no_args_is_help=True)
-def claim(
-    name: Annotated[str, typer.Argument(help="As the ledger has it: alpha, reduction.")],
-    afresh: _Afresh = False,
-    workers: _Workers = 2,
-    archive: _Archive = None,
-) -> None:
-    """Measure a claim of the ledger, and say whether its verdict stands.
-
-    Example: python -m research.replication claim alpha --afresh
-    """
-    with wrong_input(), Bench(workers, afresh=afresh, archive=archive, say=_progress) as bench:
-        one = named(name)
+def claim(given: Given) -> None:
+    """Measure a claim of the ledger, and say whether its verdict stands."""
+    with _bench(given) as bench:
+        one = named(given.name)
         found, standing = one.judged(bench.of)
-        typer.echo(f"{one.says} ({one.place})")
-        typer.echo(f"  thesis: {one.thesis}\n  here: {found.said()}")
-        typer.echo(f"  {one.verdict}, {standing}: {one.evidence}")
+        print(f"{one.says} ({one.place})")
+        print(f"  thesis: {one.thesis}\n  here: {found.said()}")
+        print(f"  {one.verdict}, {standing}: {one.evidence}")
 
 
-@app.command()
-def ledger(
-    written: Annotated[
-        bool, Option("--write", help="Write it and docs/replication.md instead of printing it.")
-    ] = False,
-    out: _Folder = _OUT,
-) -> None:
-    """Measure all claims from theory and kept numbers, and say what became of them.
-
-    Example: python -m research.replication ledger --write
-    """
-    with wrong_input():
-        text = whole_ledger(kept)
-        if written:
-            PAGE.write_text(page(kept), encoding="utf-8", newline="")
-            _write_ledger(text, out)
-    typer.echo(f"wrote {PAGE} and {out / 'ledger.md'}" if written else text)
+def ledger(given: Given) -> None:
+    """Measure all claims from theory and kept numbers, and say what became of them."""
+    text = whole_ledger(kept)
+    if given.write:
+        PAGE.write_text(page(kept), encoding="utf-8", newline="")
+        _write_ledger(text, given.out)
+    print(f"wrote {PAGE} and {given.out / 'ledger.md'}" if given.write else text)
 
 
-def _write_ledger(text: str, out: Path) -> None:
-    out.mkdir(parents=True, exist_ok=True)
-    (out / "ledger.md").write_text(text, encoding="utf-8", newline="")
-
-
-@app.command()
-def gallery() -> None:
+def gallery(_: Given) -> None:
     """Write the pictures of research/replication/gallery from the kept numbers."""
     from PIL import Image
 
@@ -152,26 +94,21 @@ def gallery() -> None:
                 256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE
             )
         few.save(path, optimize=True)
-    typer.echo(f"wrote {folder}")
+    print(f"wrote {folder}")
 
 
-def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
-    """Draw all there is, and measure all claims."""
-    began = perf_counter()
-    with Bench(workers, afresh=afresh, archive=archive, say=_progress) as bench:
-        for name in figures():
-            path = picture(name, bench.of(name), out)
-            beside = f", {_beside(bench, name, kept(name))}" if afresh else ""
-            typer.echo(f"{path}{beside}")
-        if afresh and archive is not None:
-            _published(archive, out, workers)
-        _write_ledger(whole_ledger(bench.of), out)
-        typer.echo(f"{out / 'ledger.md'}: every verdict stands")
-        spent = sum(bench.spent.values()) if afresh else bench.seconds
-    typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
+def _bench(given: Given) -> Bench:
+    store = getattr(given, "keep", False)
+    options = {"afresh": given.afresh, "store": store, "archive": given.archive}
+    return Bench(given.workers, **options, say=_progress)
 
 
-def _published(archive: Path, out: Path, workers: int) -> None:
+def _write_ledger(text: str, out: Path) -> None:
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "ledger.md").write_text(text, encoding="utf-8", newline="")
+
+
+def _published(given: Given) -> None:
     """Simulate all rows of the authors' table, and compare their page with the kept one."""
     # needs the extra `campaign`
     from .published import page as published
@@ -179,15 +116,15 @@ def _published(archive: Path, out: Path, workers: int) -> None:
 
     _progress("the published table ...")
     began = perf_counter()
-    table = read_detachments(file_of(archive, "comb_1to9.csv"))
-    rows = compare(table, out / "published", workers=workers)
+    table = read_detachments(file_of(given.archive, "comb_1to9.csv"))
+    rows = compare(table, given.out / "published", workers=given.workers)
     lines = published.changed(rows, Path(published.__file__).with_name("README.md").read_text())
     time = sum(row[x]["wall_time_s"] for row in rows for x in ("ours", "best") if x in row)
-    typer.echo(
+    print(
         f"the published table: {len(rows):,} rows, {time:.0f} s in the workers, "
         f"{perf_counter() - began:.0f} s by the clock, {len(lines)} lines of its page differ"
     )
-    typer.echo("".join(f"  {line}\n" for line in lines), nl=False)
+    print("".join(f"  {line}\n" for line in lines), end="")
 
 
 def _beside(bench: Bench, name: str, before: Numbers) -> str:
@@ -201,8 +138,47 @@ def _beside(bench: Bench, name: str, before: Numbers) -> str:
 
 
 def _progress(words: str) -> None:
-    typer.echo(words, err=True)
+    print(words, file=sys.stderr)
+
+
+def _parser() -> argparse.ArgumentParser:
+    out = argparse.ArgumentParser(add_help=False)
+    out.add_argument("--out", type=Path, default=Path("out/replication"), help="folder of results")
+    made = argparse.ArgumentParser(add_help=False, parents=[out])
+    made.add_argument("--afresh", action="store_true", help="make the numbers again")
+    made.add_argument("--workers", type=int, default=2, help="processes")
+    made.add_argument("--archive", type=Path, help="checkout of the authors' public archive")
+    kind = argparse.RawDescriptionHelpFormatter
+    name = "python -m research.replication"
+    parser = argparse.ArgumentParser(
+        prog=name, description=__doc__, formatter_class=kind, parents=[made]
+    )
+    parser.add_argument("--list", action="store_true", dest="listed", help="figures and their cost")
+    parser.add_argument("--all", action="store_true", help="every figure, table and claim")
+    parser.set_defaults(run=contents)
+    rooms = parser.add_subparsers(metavar="COMMAND")
+    for run, parent in ((figure, made), (claim, made), (ledger, out), (gallery, out)):
+        room = rooms.add_parser(run.__name__, help=run.__doc__, parents=[parent])
+        room.set_defaults(run=run)
+        if run in (figure, claim):
+            room.add_argument("name", help="4.6, table-5.1, A.3; of a claim as the ledger has it")
+        if run is figure:
+            room.add_argument("--keep", action="store_true", help="keep what is made afresh")
+            room.add_argument("--svg", action="store_true", help="SVG instead of PNG")
+        if run is ledger:
+            room.add_argument("--write", action="store_true", help="write it and its summary")
+    return parser
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """Run a command; what is wrong with its input is said on standard error."""
+    parser = _parser()
+    given = parser.parse_args(words)
+    try:
+        given.run(given)
+    except (ValueError, OSError, ModuleNotFoundError) as error:
+        parser.error(str(error))
 
 
 if __name__ == "__main__":
-    app(prog_name="python -m research.replication")
+    main()

@@ -5,10 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
-from research.replication.__main__ import app
+from research.replication.__main__ import main
 from research.replication.bench import Bench
 from research.replication.figures import retractions, starts
 from research.replication.figures.cases import Work, detached, punch
@@ -22,12 +21,6 @@ from research.replication.second_code import half_plane
 from research.replication.second_code.__main__ import KEPT
 from research.replication.table import SAMPLE, read_detachments
 from viscotack.theory import persson_brener
-
-
-def asked(*words):
-    """Return exit status and output of ``python -m research.replication``."""
-    answer = CliRunner().invoke(app, [*map(str, words)])
-    return answer.exit_code, answer.output
 
 
 def test_the_ledger_is_what_is_measured():
@@ -59,7 +52,9 @@ def test_the_slow_coefficient_is_that_of_the_theory():
 
 
 def test_an_unknown_figure_or_claim_is_refused():
-    assert asked("figure", "9.9")[0] == asked("claim", "alfa")[0] == 2
+    for words in (["figure", "9.9"], ["claim", "alfa"]):
+        with pytest.raises(SystemExit, match="2"):
+            main(words)
 
 
 @pytest.mark.parametrize("name", [each.name for each in figures().values() if each.theory])
@@ -116,6 +111,6 @@ def test_the_second_code_agrees_with_the_package():
 
 @pytest.mark.slow
 def test_everything_is_drawn_and_measured_from_kept_numbers(tmp_path):
-    assert asked("--all", "--workers", 1, "--out", tmp_path)[0] == 0
+    main(["--all", "--workers", "1", "--out", str(tmp_path)])
     drawn = {path.stem for path in tmp_path.glob("*.png")}
     assert drawn == {name.replace(".", "_") for name in figures()}

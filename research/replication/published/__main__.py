@@ -1,83 +1,50 @@
-"""The published table tested: ``python -m research.replication.published --table FILE``."""
+"""Simulate every row of the published table and say how far the two are apart.
 
+``python -m research.replication.published --table FILE``. Where they are apart by more than 2 % a
+converged run decides. The whole table takes a quarter of an hour of processor time, the sample in
+tests/data, of 1,200 rows, a few minutes.
+"""
+
+import argparse
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
-import typer
-from typer import Option
 
 from viscotack import InputError
 
 from ..table import SAMPLE, Detachments, read_detachments
-from ..words import application, wrong_input
 from .compare import compare
 from .corrected import write_corrected
 from .page import page, write
 
-app = application()
 
-
-@app.command()
-def published(
-    table: Annotated[
-        Path,
-        Option(
-            "--table",
-            metavar="FILE",
-            help="The table that the authors of the thesis published (CSV); a sample of it if left "
-            "out.",
-            show_default=False,
-        ),
-    ] = SAMPLE,
-    count: Annotated[
-        int | None,
-        Option("--count", metavar="N", min=1, help="So many rows at random; all if left out."),
-    ] = None,
-    seed: Annotated[int, Option("--seed", min=0, help="Of the draw.")] = 2026,
-    out: Annotated[
-        Path,
-        Option("--out", metavar="DIR", help="Folder of the runs; they go on where they stopped."),
-    ] = Path("out/published"),
-    workers: Annotated[
-        int, Option("--workers", metavar="N", min=1, help="Processes of this machine.")
-    ] = 2,
-    corrected: Annotated[
-        Path | None,
-        Option(
-            "--corrected",
-            metavar="FILE",
-            help="Write the corrected table: the same inputs, both forces and works, our errors.",
-        ),
-    ] = None,
-    written: Annotated[
-        Path | None,
-        Option(
-            "--write",
-            metavar="DIR",
-            help="Write README.md and its pictures into a folder, instead of printing the page; "
-            "for the complete table.",
-        ),
-    ] = None,
-) -> None:
-    """Simulate every row of the published table and say how far the two are apart.
-
-    Where they are apart by more than 2 % a converged run decides. The whole table takes a quarter
-    of an hour of processor time, the sample in tests/data, of 1,200 rows, a few minutes.
-
-    Example: python -m research.replication.published --table rows.csv --count 1000
-    """
-    with wrong_input():
-        if written is not None and table.resolve() == SAMPLE:
+def main() -> None:
+    """Compare the tables, and print or write the page."""
+    parser = argparse.ArgumentParser(
+        prog="python -m research.replication.published", description=__doc__
+    )
+    add = parser.add_argument
+    add("--table", type=Path, default=SAMPLE, help="the authors' table (CSV); if left out a sample")
+    add("--count", type=int, help="so many rows at random; all if left out")
+    add("--seed", type=int, default=2026, help="of the draw")
+    add("--out", type=Path, default=Path("out/published"), help="runs; they go on where they ended")
+    add("--workers", type=int, default=2, help="processes")
+    add("--corrected", type=Path, help="write inputs, both forces and works, and our errors (CSV)")
+    add("--write", type=Path, help="folder for README.md and its pictures; for the whole table")
+    given = parser.parse_args()
+    try:
+        if given.write is not None and given.table.resolve() == SAMPLE:
             raise InputError("--write is for the complete table: give its path by --table")
-        rows = read_detachments(table)
-    found = compare(drawn(rows, count, seed), out, workers=workers)
-    if corrected is not None:
-        write_corrected(found, read_detachments(SAMPLE), corrected)
-    if written is None:
-        typer.echo(page(found))
+        rows = read_detachments(given.table)
+    except (ValueError, OSError, ModuleNotFoundError) as error:
+        parser.error(str(error))
+    found = compare(drawn(rows, given.count, given.seed), given.out, workers=given.workers)
+    if given.corrected is not None:
+        write_corrected(found, read_detachments(SAMPLE), given.corrected)
+    if given.write is None:
+        print(page(found))
     else:
-        write(found, written)
+        write(found, given.write)
 
 
 def drawn(rows: Detachments, count: int | None, seed: int) -> Detachments:
@@ -89,4 +56,4 @@ def drawn(rows: Detachments, count: int | None, seed: int) -> Detachments:
 
 
 if __name__ == "__main__":
-    app(prog_name="python -m research.replication.published")
+    main()
