@@ -7,24 +7,28 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from viscotack import AtDepth, Groups, RetardationPowerLaw
+from viscotack import AtDepth, Elastic, Groups, RetardationPowerLaw, StandardSolid
+
+REDUCED = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
 
 
-def power_law(modulus_ratio: float, exponent: float) -> RetardationPowerLaw:
-    """Return the reduced power law by retardation spectrum."""
-    return RetardationPowerLaw(
-        rubbery_modulus=1.0,
-        glassy_modulus=1 / modulus_ratio,
-        exponent=exponent,
-        tau0=1.0,
-        poisson_ratio=0.0,
-    )
+def reduced(modulus_ratio: float, exponent: float | None = None) -> Any:
+    """Return a reduced power law by retardation, without exponent a standard solid.
+
+    At a modulus ratio of 1 the solid is elastic.
+    """
+    if modulus_ratio == 1:
+        return Elastic(**REDUCED)
+    creeping = {**REDUCED, "glassy_modulus": 1 / modulus_ratio, "tau0": 1.0}
+    if not exponent:
+        return StandardSolid(**creeping)
+    return RetardationPowerLaw(exponent=exponent, **creeping)
 
 
 def case(tabor: float, modulus_ratio: float, exponent: float, depth: float, rate: float) -> Groups:
     """Return a power-law case by its five groups."""
     return Groups(
-        tabor=tabor, material=power_law(modulus_ratio, exponent), start=AtDepth(depth), rate=rate
+        tabor=tabor, material=reduced(modulus_ratio, exponent), start=AtDepth(depth), rate=rate
     )
 
 

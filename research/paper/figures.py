@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import viscotack as vt
+from research.cases import reduced
 from research.replication.second_code.half_plane import Solid, cracks
 
 from . import closed_forms
-from .numbers import coefficient, crack, factors, kept, solid
+from .numbers import coefficient, crack, factors, kept
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 STYLE = {
@@ -190,7 +191,9 @@ def contacts():
 
 def _from_rest(tabor, rate):
     """Return the pull-off force from a relaxed start, nan where the theory does not hold."""
-    groups = vt.Groups(tabor=tabor, material=solid(0.1), start=vt.AtRadius(4.0), rate=rate * tabor)
+    groups = vt.Groups(
+        tabor=tabor, material=reduced(0.1), start=vt.AtRadius(4.0), rate=rate * tabor
+    )
     try:
         return vt.crack_contact(groups).pull_off_force
     except vt.OutOfRange:
@@ -201,7 +204,7 @@ def _cycle(rate, tabor=30.0):
     """Return the pull-off force of a contact that is made and opened at one speed."""
     groups = vt.Groups(
         tabor=tabor,
-        material=solid(0.1),
+        material=reduced(0.1),
         start=vt.Apart(5.0),
         moves=(vt.Approach(rate * tabor, vt.AtDepth(6 * tabor)),),
         rate=rate * tabor,

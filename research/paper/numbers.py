@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
+from research.cases import reduced
 from research.replication.second_code.compare import elastic, plane
 from viscotack.theory import SteadyCrack, jkr, lennard_jones, maugis
 
@@ -34,7 +35,6 @@ FRESH = 49
 # What the measured series has of each force.
 _RATIOS = ("ratio", "error", "matched_low", "matched_high", "published_low", "published_high")
 _RATIOS += ("no_loss",)
-LENS = dict(rubbery_modulus=1.0, tau0=1.0, poisson_ratio=0.0)
 
 
 class Stale(Exception):
@@ -48,20 +48,10 @@ def kept(name):
     return json.loads((path or HERE / "kept" / f"{name}.json").read_text("utf-8"))
 
 
-def solid(modulus_ratio, exponent=None):
-    """Return a reduced standard solid, or a power law by retardation."""
-    common = dict(
-        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
-    )
-    if exponent is None:
-        return vt.StandardSolid(**common)
-    return vt.RetardationPowerLaw(exponent=exponent, **common)
-
-
 @cache
 def crack(modulus_ratio, exponent=None):
     """Return the steady cracks of a solid with the Lennard-Jones law."""
-    return SteadyCrack(solid(modulus_ratio, exponent), vt.LennardJones(1.0, 1.0))
+    return SteadyCrack(reduced(modulus_ratio, exponent), vt.LennardJones(1.0, 1.0))
 
 
 def check(name, old, new, tolerance):
@@ -322,7 +312,7 @@ def numbers():
         for name in closed_forms.FORMS
     }
     lens = vt.crack_contact(
-        vt.Groups(tabor=1e4, material=solid(0.1), start=vt.AtDepth(2e5), rate=1e5)
+        vt.Groups(tabor=1e4, material=reduced(0.1), start=vt.AtDepth(2e5), rate=1e5)
     )
     # the elastic coefficient within a radius grows as pi/12 per ln of the radius
     return {

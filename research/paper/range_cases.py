@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
+from research.cases import reduced
 
 KEPT = Path(__file__).with_name("kept") / "range_cases.json"
 SEED = 431
@@ -27,19 +28,11 @@ ACCURACY, TIME_LIMIT, LEAST_ZONES = 3e-4, 1200.0, 8.0
 COARSER = {62: 5e-4}
 
 
-def solid_of(row):
-    """Return the reduced solid of a row."""
-    common = dict(rubbery_modulus=1.0, glassy_modulus=1 / row["k"], tau0=1.0, poisson_ratio=0.0)
-    if row["exponent"] is None:
-        return vt.StandardSolid(**common)
-    return vt.RetardationPowerLaw(exponent=row["exponent"], **common)
-
-
 def groups_of(row):
     """Return the problem of a row."""
     return vt.Groups(
         tabor=row["tabor"],
-        material=solid_of(row),
+        material=reduced(row["k"], row["exponent"]),
         start=vt.AtRadius(row["radius"]),
         rate=row["rate"],
     )
@@ -57,7 +50,7 @@ def drawn(i):
     # a relaxed start wider than the contact at the pull-off of the fastest crack
     row["radius"] = wide * 1.65 * k ** (-1 / 3) / np.pi ** (1 / 3)
     # the speed of that crack, as a rate of the depth
-    crack = vt.theory.SteadyCrack(solid_of(row), vt.LennardJones(1.0, 1.0))
+    crack = vt.theory.SteadyCrack(reduced(row["k"], row["exponent"]), vt.LennardJones(1.0, 1.0))
     speed = float(crack.speed(gamma))
     row["rate"] = speed / tabor * gamma ** (1 / 3)
     return row

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from research.cases import reduced
 from research.replication.__main__ import main
 from research.replication.bench import Bench
 from research.replication.figures import retractions, starts
@@ -43,10 +44,7 @@ def test_a_verdict_falls_with_the_number_it_rests_on():
 
 def test_the_slow_coefficient_is_that_of_the_theory():
     """Limit: a tiny modulus ratio, at which the fit of the thesis is right."""
-    solid = vt.RetardationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=1e6, exponent=0.6, tau0=1.0, poisson_ratio=0.0
-    )
-    gain = float(persson_brener.amplification(1e-6, material=solid)) - 1
+    gain = float(persson_brener.amplification(1e-6, material=reduced(1e-6, 0.6))) - 1
     assert gain / 1e-6 == pytest.approx(np.pi * 0.6, rel=1e-3)
     assert named("slow-coefficient").judged(kept)[0].value == pytest.approx(10.6, abs=0.2)
 

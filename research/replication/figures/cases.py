@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import viscotack as vt
+from research.cases import reduced
 from viscotack import theory
 
 # "Unless differently stated": chapter 4 and chapter 3.
@@ -34,17 +35,7 @@ RANGES = {"30.8 nm": 30.8e-9, "200 nm": 200e-9, "1.55 um": 1.55e-6}
 
 def solid(k: float = K, exponent: float = STANDARD) -> Any:
     """Return a reduced solid: a power law by its retardation, or the standard one; elastic at 1."""
-    if k == 1:
-        return vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    parts: dict[str, float] = {
-        "rubbery_modulus": 1.0,
-        "glassy_modulus": 1 / k,
-        "tau0": 1.0,
-        "poisson_ratio": 0.0,
-    }
-    if exponent == STANDARD:
-        return vt.StandardSolid(**parts)
-    return vt.RetardationPowerLaw(exponent=exponent, **parts)
+    return reduced(k, exponent)
 
 
 def sphere(

@@ -10,7 +10,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from viscotack import RetardationPowerLaw
+from research.cases import reduced
 from viscotack.theory import persson_brener, rate
 
 from ..table import Array, Detachments
@@ -52,10 +52,7 @@ def crack_amplification(rows: Detachments) -> Array:
     solids = np.stack([rows.modulus_ratio, rows.exponent], axis=1)
     for k, n in np.unique(solids, axis=0):
         of_solid = np.all(solids == (k, n), axis=1)
-        solid = RetardationPowerLaw(
-            rubbery_modulus=1.0, glassy_modulus=1 / k, exponent=n, tau0=1.0, poisson_ratio=0.0
-        )
-        found[of_solid] = persson_brener.amplification(v[of_solid], material=solid)
+        found[of_solid] = persson_brener.amplification(v[of_solid], material=reduced(k, n))
     return found
 
 

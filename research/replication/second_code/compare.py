@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 import viscotack as vt
-from viscotack import LennardJones, RetardationPowerLaw, StandardSolid
+from research.cases import reduced
+from viscotack import LennardJones
 from viscotack.theory import SteadyCrack, lennard_jones
 
 from .half_plane import Solid, cracks
@@ -34,15 +35,8 @@ _MARCHED_TABOR, _ACCURACY = 10.0, 3e-4
 
 def solids(modulus_ratio, exponent):
     """Return the same solid for this code and for the package."""
-    common = dict(
-        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
-    )
-    if exponent is None:
-        return Solid.standard(modulus_ratio), StandardSolid(**common)
-    return (
-        Solid.power_law(modulus_ratio, exponent),
-        RetardationPowerLaw(exponent=exponent, **common),
-    )
+    own = Solid.power_law(modulus_ratio, exponent) if exponent else Solid.standard(modulus_ratio)
+    return own, reduced(modulus_ratio, exponent)
 
 
 def plane(modulus_ratio, exponent, speeds, **mesh):
