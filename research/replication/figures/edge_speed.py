@@ -56,10 +56,8 @@ def simulated(each: Any, k: float, exponent: float, rates: Any, tabor: float = T
     ]
     found = table(each, works)
     return {
-        "rate": np.asarray(rates),
         "energy": found["force"],
         "error": found["force_error"],
-        "edge_speed": found["speed"],
         "speed": tip_speed(found["speed"], tabor),
     }
 
@@ -152,7 +150,6 @@ def numbers_4_7(bench: Bench) -> Numbers:
     return {
         "modulus_ratio": np.array([k for k, _ in _SOLIDS]),
         "exponent": np.array([n for _, n in _SOLIDS]),
-        "rate": _FEWER_RATES,
         "reduced_rate": reduced,
         "fitted_speed": speed,
         "speed": np.array([of["speed"] for of in found]),

@@ -27,7 +27,6 @@ def numbers_2_1(bench: Bench) -> Numbers:
     inside = {name: np.linspace(0, 1 - _NEAR_EDGE, 200) * a for name, a in radius.items()}
     a, b = radius["hertz"], radius["jkr"]
     return {
-        "depth": _DEPTH,
         "radius": radius,
         "force": {
             "hertz": float(hertz.force(a, **BODIES)),

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import TABOR, K, Work, sphere, table
-from .learned import FORCE_ML, FORCE_PAML, analytic, predicted, rows
+from .learned import FORCE_ML, FORCE_PAML, analytic, predicted
 from .style import COLOURS, DEPTH, FORCE, MODEL, RATE, SIMULATED, colour, decades, panels, words
 
 EXPONENTS = (0.2, 0.6, 1.6)
@@ -47,12 +47,8 @@ def distance(numbers: Numbers, name: str, what: str) -> float:
 
 
 def numbers_5_5(bench: Bench) -> Numbers:
-    """Return the curves at a start of 73 h0, and how many rows are like each."""
-    r = rows()
-    near = (np.abs(np.log(r.tabor / TABOR)) < 0.02) & (r.preload > 50) & (r.modulus_ratio == K)
-    like = [int(np.sum(near & (r.exponent == n))) for n in EXPONENTS]
-    found = curves(bench.each, tabor=TABOR, depth=_DEPTH) | {"rows_like_it": like}
-    return found | {"trend": trend()}
+    """Return the curves at a start of 73 h0, and those of other modulus ratios."""
+    return curves(bench.each, tabor=TABOR, depth=_DEPTH) | {"trend": trend()}
 
 
 def trend() -> list[Numbers]:

@@ -162,7 +162,6 @@ def numbers_histories(bench: Bench) -> Numbers:
         "exponent": np.array(EXPONENTS),
         "rate": np.array(RATES),
         "approach": SPEEDS,
-        "relaxed": force[:, :, 0],
         "change": force[:, :, 1:] / force[:, :, :1] - 1,
         "error": found["force_error"][:, :, 1:],
     }

@@ -75,9 +75,7 @@ def numbers_3_6(bench: Bench) -> Numbers:
         "rate": np.array(RATES),
         "stress": found["force"],
         "error": found["force_error"],
-        "ligament": found["ligament"],
         "slow": slow["force"],
-        "slow_ligament": slow["ligament"],
         "fast": fast["force"],
         "exact_slow": exact,
         "exact_fast": exact / np.sqrt(0.1),
@@ -136,7 +134,6 @@ def moments(over_width: float) -> dict[str, Any]:
             "place": x[some],
             "tension": -fields["pressure"][at][here][some] / _STRENGTH,
             "opening": fields["gap"][at][here][some] - 1,
-            "mean": float(force[step]),
         }
     return found
 

@@ -77,12 +77,10 @@ def of_table(number: str, each: Callable[..., Any]) -> dict[str, Any]:
         "mse": [1e3 * float(s.mse.mean()) for s in scores],
         "mse_spread": [1e3 * float(s.mse.std()) for s in scores],
         "r2": [float(s.r2.mean()) for s in scores],
-        "r2_spread": [float(s.r2.std()) for s in scores],
         "size": [int(round(float(s.sizes.mean()))) for s in scores],
         "thesis_mse": [entry.mse for entry in printed.entries.values()],
         "thesis_mse_spread": [entry.mse_spread for entry in printed.entries.values()],
         "thesis_r2": [entry.r2 for entry in printed.entries.values()],
-        "thesis_r2_spread": [entry.r2_spread for entry in printed.entries.values()],
     }
 
 
@@ -100,5 +98,4 @@ def held_out(trial: Trial, points: int) -> dict[str, Any]:
         "true": found.true[some],
         "predicted": found.predicted[some],
         "r2": found.pooled_r2,
-        "mse": 1e3 * float(np.mean((found.true - found.predicted) ** 2)),
     }

@@ -41,7 +41,10 @@ def retracted(gap: float) -> dict[str, Any]:
     problem = lens(SPEED, gap)
     result = vt.solve(problem, until="pull-off", accuracy=5e-3, estimate_error=False)
     scales = problem.scales()
-    radius, force = _in_si(result, scales)
+    of = curve(result, 60)
+    # beyond the least force no dead load holds the contact, and Carpick's law has nothing to say
+    held = slice(int(np.argmin(of["force"])) + 1)
+    radius, force = scales.radius * of["contact_radius"][held], scales.force * of["force"][held]
     relaxed = vt.solve(
         lens(SPEED, gap, material=vt.Elastic(rubbery_modulus=1.458e6, poisson_ratio=0.5)),
         until="pull-off",
@@ -55,19 +58,11 @@ def retracted(gap: float) -> dict[str, Any]:
         "pull_off_force": 1e3 * scales.force * vt.pull_off_force(result),
         "elastic_pull_off_force": 1e3 * scales.force * vt.pull_off_force(relaxed),
         "carpick": carpick(radius, force),
-        "elastic_carpick": carpick(*_in_si(relaxed, scales)),
     }
 
 
-def _in_si(result: vt.Result, scales: vt.Scales) -> tuple[Any, Any]:
-    of = curve(result, 60)
-    # beyond the least force no dead load holds the contact, and Carpick's law has nothing to say
-    held = slice(int(np.argmin(of["force"])) + 1)
-    return scales.radius * of["contact_radius"][held], scales.force * of["force"][held]
-
-
 def carpick(radius: Any, force: Any) -> dict[str, float]:
-    """Return transition number, Tabor number and work of adhesion that Carpick's fit reads.
+    """Return Tabor number and work of adhesion that Carpick's fit reads.
 
     Least squares of the radius by force with three free numbers: radius without load, pull-off
     force, transition number; then Maugis parameter and work by the usual fits.
@@ -91,11 +86,9 @@ def carpick(radius: Any, force: Any) -> dict[str, float]:
     starts = [(at_rest, excess, x) for excess in (-9.0, -5.0) for x in (-1.0, 1.0, 3.0)]
     fits = [least_squares(off, start, max_nfev=2000) for start in starts]
     x = min(fits, key=lambda fit: fit.cost).x
-    alpha = float(0.975 / (1 + np.exp(-x[2])))
-    parameter = float(transition.maugis_parameter(alpha))
+    parameter = float(transition.maugis_parameter(float(0.975 / (1 + np.exp(-x[2])))))
     unit = float(transition.pull_off_force(parameter, radius=LENS, work_of_adhesion=1.0))
     return {
-        "transition": alpha,
         "tabor": parameter / float(maugis.parameter_from_tabor(1.0)),
         "work_of_adhesion": pull * (1 + float(np.exp(x[1]))) / unit,
     }

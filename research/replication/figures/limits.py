@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.special import ellipkm1
 
 import viscotack as vt
+from research.twins import hat_matrix, lennard_jones
 from viscotack.theory import jkr
 
 from ..bench import Bench, Numbers
@@ -50,13 +50,11 @@ def numbers_limits(bench: Bench) -> Numbers:
         "tabor": np.array(TABORS),
         "slow": slow["force"],
         "slow_error": slow["force_error"],
-        "slow_theory": np.asarray(elastic_ratio(np.array(TABORS))),
         "slow_viscoelastic": float(crept["force"][0]),
         "depth": np.array(DEPTHS),
         "fast": K * fast["force"],
         "fast_error": fast["force_error"],
         "fast_theory": float(elastic_ratio(3.24 * K ** (1 / 3))),
-        "size": np.array(SIZES),
         "at_b1": stress,
         "at_b1_limit": float(limit),
         "at_b1_exact": float(PAD.elastic_stress(b1 * PAD.half_width)) * np.sqrt(PAD.half_width),
@@ -110,45 +108,14 @@ _STEPS, _ITERATIONS, _SMALL = 150, 80, 1e-7
 _UNIT = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 
 
-def influence(r: Any) -> Any:
-    """Return the displacement at each node by a triangle of pressure at each, Eq. 29 and 30."""
-    x, w = np.polynomial.legendre.leggauss(8)
-    fine, weight = np.polynomial.legendre.leggauss(20)
-    step = r[1] - r[0]
-    found = np.zeros((len(r), len(r)))
-    for j in range(len(r) - 1):
-        regular = np.ones(len(r), dtype=bool)
-        regular[[j, j + 1]] = False
-        t = (x + 1) / 2
-        values = _kernel(r[regular, None], r[j] + step * t, None) * (r[j] + step * t) * w / 2 * step
-        found[regular, j] += values @ (1 - t)
-        found[regular, j + 1] += values @ t
-        for i, sign in ((j, 1), (j + 1, -1)):
-            # the logarithm at the node is taken by points that crowd there
-            u = ((fine + 1) / 2) ** 5
-            jacobian = 5 * ((fine + 1) / 2) ** 4 * weight / 2 * step
-            s = r[i] + sign * step * u
-            values = _kernel(r[i], s, step * u) * s * jacobian
-            here, there = (j, j + 1) if sign > 0 else (j + 1, j)
-            found[i, here] += np.sum(values * (1 - u))
-            found[i, there] += np.sum(values * u)
-    return found
-
-
-def _kernel(r: Any, s: Any, apart: Any) -> Any:
-    high, low = np.maximum(r, s), np.minimum(r, s)
-    distance = high - low if apart is None else apart
-    return 4 / (np.pi * high) * ellipkm1(distance * (high + low) / high**2)
-
-
 def retracted(case: tuple[float, int]) -> dict[str, float]:
     """Return the largest tension over JKR's, and how far the drive went until contact was lost."""
     tabor, nodes = case
     r = np.linspace(0, _LAST, nodes)
-    G = tabor * influence(r)
+    G = tabor * hat_matrix(nodes, r[1])
     start = float(jkr.depth(_START, **_UNIT)) * tabor
     end = 1.6 * float(jkr.instability(**_UNIT).depth) * tabor
-    gap = np.asarray(jkr.gap(r, contact_radius=_START, **_UNIT)) * tabor + 0.02
+    gap = np.asarray(jkr.gap(r, contact_radius=_START, **_UNIT)) * tabor + 1.02
     best, taken = 0.0, 0
     for depth in np.linspace(start, end, _STEPS):
         found = _equilibrium(gap, depth, r, G, tabor)
@@ -156,42 +123,35 @@ def retracted(case: tuple[float, int]) -> dict[str, float]:
             # beyond a jump the gap before it is no guess
             break
         gap, taken = found, taken + 1
-        pressure = -_tension(gap, tabor)[0]
         # the tail beyond the last node, per node as if rigid
-        force = 2 * np.trapezoid(pressure * r, r) - 8 / 3 / (gap[-1] + 1) ** 2
+        force = 2 * np.trapezoid(lennard_jones(gap, tabor)[0] * r, r) - 8 / 3 / gap[-1] ** 2
         best = min(best, float(force))
     return {"force": -best / 1.5, "way": taken / _STEPS}
 
 
-def _tension(gap: Any, tabor: float) -> tuple[Any, Any]:
-    h = 1 + gap
-    return 8 / 3 * tabor * (h**-3 - h**-9), 8 / 3 * tabor * (9 * h**-10 - 3 * h**-4)
-
-
 def _equilibrium(gap: Any, depth: float, r: Any, G: Any, tabor: float) -> Any:
-    """Return the gap - 1 at a depth by Newton's method from a guess; None where it is not found."""
-    H = gap.copy()
-    rigid = -depth + tabor * r**2 / 2
+    """Return the gap at a depth by Newton's method from a guess; None where it is not found."""
+    rigid = 1 - depth + tabor * r**2 / 2
 
-    def miss(H: Any) -> Any:
-        return H - rigid + G @ _tension(H, tabor)[0]
+    def miss(gap: Any) -> Any:
+        return gap - rigid - G @ lennard_jones(gap, tabor)[0]
 
-    at = miss(H)
+    at = miss(gap)
     for _ in range(_ITERATIONS):
         size = np.max(np.abs(at))
         if size < _SMALL:
-            return H
-        step = np.linalg.solve(np.eye(len(r)) + G * _tension(H, tabor)[1], -at)
-        part = min(1.0, 0.7 / max(1e-30, float(np.max(-step / (1 + H)))))
+            return gap
+        step = np.linalg.solve(np.eye(len(r)) - G * lennard_jones(gap, tabor)[1], -at)
+        part = min(1.0, 0.7 / max(1e-30, float(np.max(-step / gap))))
         while part > 1e-4:
-            tried = H + part * step
+            tried = gap + part * step
             new = miss(tried)
             if np.max(np.abs(new)) < (1 - 0.1 * part) * size:
                 break
             part /= 2
         else:
             return None
-        H, at = tried, new
+        gap, at = tried, new
     return None
 
 
@@ -200,14 +160,12 @@ def numbers_printed_algorithm(bench: Bench) -> Numbers:
     cases = [(mu, n) for n in NODES for mu in UNIFORM_TABORS]
     rows = list(bench.each(retracted, cases))
     shape = (len(NODES), len(UNIFORM_TABORS))
-    zone = 0.75 / np.array(UNIFORM_TABORS) ** 2
     return {
         "tabor": np.array(UNIFORM_TABORS),
         "nodes": list(NODES),
         "force": np.array([row["force"] for row in rows]).reshape(shape),
         "way": np.array([row["way"] for row in rows]).reshape(shape),
         "expected": np.asarray(elastic_ratio(np.array(UNIFORM_TABORS))),
-        "nodes_in_a_zone": np.outer(np.array(NODES) / _LAST, zone),
     }
 
 

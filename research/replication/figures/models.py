@@ -123,11 +123,7 @@ def numbers_A_8(bench: Bench) -> Numbers:
         "round": np.arange(1, len(learned) + 1, every),
         "learned": np.array(learned[::every]),
         "held_out": np.array(held_out[::every]),
-        "learning_rate": best.learning_rate,
-        "depth": best.max_depth,
         "stopped_at": best.best_iteration + 1,
-        "mse": 1e3 * best.best_score**2,
-        "rounds_of_the_grid": np.array([model.best_iteration + 1 for model in models]),
         "thesis_rounds": STOPPED_AT,
     }
 

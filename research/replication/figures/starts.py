@@ -86,7 +86,6 @@ def numbers_4_4(bench: Bench) -> Numbers:
     speed = np.geomspace(1e-2, 1e7, 91)
     return {
         "start": np.array(RADII),
-        "rate": RATES,
         "force": CHAPTER_4 * found["force"],
         "error": found["force_error"],
         "speed": tip_speed(found["speed"]),

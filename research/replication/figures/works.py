@@ -120,8 +120,6 @@ def numbers_A_6(bench: Bench) -> Numbers:
         "simulated": found["work"][0],
         "error": found["work_error"][0],
         "fast": found["work"][1],
-        "radius": found["radius"][0],
-        "printed_radius": np.array(_RADII),
         "estimate": 4 / 3 * np.array(_RADII) ** 2 * np.pi ** (2 / 3) * mu,
         "jkr_fast": np.asarray(jkr_work(mu)) * K ** (-2 / 3),
     }
@@ -160,8 +158,6 @@ def numbers_A_7(bench: Bench) -> Numbers:
         "simulated_rate": WIDE_POINTS,
         "simulated": found["work"],
         "error": found["work_error"],
-        "depth": found["depth"],
-        "force": found["force"],
         "rubbery": float(np.asarray(jkr_work(LARGE_TABOR))),
         "glassy": float(4 / 3 * _PRINTED_RADIUS**2 * np.pi ** (2 / 3) * LARGE_TABOR),
     }
