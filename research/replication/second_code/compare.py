@@ -68,7 +68,7 @@ def plane(modulus_ratio, exponent, speeds, **mesh):
 
 def extrapolated(tabor, **options):
     """Return the pull-off force without the error of the mesh, which is of second order."""
-    coarse, fine = (pull_off(tabor, refined=r, **options).force for r in _REFINED)
+    coarse, fine = (pull_off(tabor, refined=r, **options) for r in _REFINED)
     ratio = (_REFINED[1] / _REFINED[0]) ** 2
     return (ratio * fine - coarse) / (ratio - 1)
 
@@ -111,7 +111,7 @@ def marched(depth, rate, spacing, tabor=_MARCHED_TABOR, modulus_ratio=0.1):
     simulated = vt.pull_off(vt.solve(groups, **options)).force
     least = 0.75 * contact.contact_radius_at_pull_off * np.pi ** (1 / 3)
     forces = [
-        retraction(tabor, own, depth=depth, rate=rate, least=least, spacing=spacing / part).force
+        retraction(tabor, own, depth=depth, rate=rate, least=least, spacing=spacing / part)
         for part in (1, 2, 4)
     ]
     first, second = np.diff(forces)

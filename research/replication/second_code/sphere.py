@@ -14,8 +14,6 @@ of a crack that came at this speed, and D is the hereditary depth. Lengths along
 beta, heights in beta^2/R, forces in R dg, speeds as in :mod:`.half_plane`.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 import scipy
 
@@ -29,17 +27,6 @@ _GAUSS, _ROUNDS, _CLOSE, _LEAST_GAP = 4, 80, 1e-10, 0.6
 _MARCHED, _MOVED, _LARGEST_STEP = 1e-7, 3.0, 0.05
 # Places of the edge around the guess, for the parabola through the largest tension.
 _PLACES = (-0.12, -0.04, 0.04, 0.12)
-
-
-class PullOff(NamedTuple):
-    """Largest tension over 1.5 pi, edge and depth there, with the last contact for its shape."""
-
-    force: float
-    edge: float
-    depth: float
-    radius: np.ndarray
-    gap: np.ndarray
-    traction: np.ndarray
 
 
 def mesh(edge, zone, *, refined=1.0):
@@ -79,38 +66,29 @@ def operator(r):
 
 
 def pull_off(tabor, *, solid=None, speed=0.0, energy=1.0, refined=1.0):
-    """Return the pull-off at a Tabor number, elastic or of an edge of a steady speed.
+    """Return the largest tension over 1.5 pi, elastic or of an edge of a steady speed.
 
     ``energy`` is that of the plane crack at this speed, which sets the mesh and the first guess.
     """
     guess = (9 * np.pi * energy / 8) ** (1 / 3)
-    zone = energy / tabor**2
-    found, state = [], None
-    for part in _PLACES:
-        found.append(_contact(tabor, guess * (1 + part), zone, solid, speed, energy, refined))
     edge = guess * (1 + np.array(_PLACES))
-    tension = np.array([x[0] for x in found])
+    tension = [_tension(tabor, at, solid, speed, energy, refined) for at in edge]
     curve = np.polynomial.Polynomial.fit(edge, tension, 3)
     turns = np.real(curve.deriv().roots())
     best = turns[np.argmin(np.abs(turns - guess))]
-    state = found[int(np.argmin(np.abs(edge - best)))]
-    return PullOff(curve(best) / (1.5 * np.pi), float(best), *state[1:])
+    return curve(best) / (1.5 * np.pi)
 
 
-def _contact(tabor, edge, zone, solid, speed, energy, refined):
-    """Return tension, depth, radii, gaps [h0] and tractions for a place of the edge."""
+def _tension(tabor, edge, solid, speed, energy, refined):
+    """Return the tension for a place of the edge."""
+    zone = energy / tabor**2
     r, middle = mesh(edge, zone, refined=refined)
     rise, mass = operator(r)
     solid = Solid(1.0, ()) if solid is None else solid
     lag = memory(r * tabor**2, solid.instantaneous, solid.modes, speed)
     pinned, n = half_gap(), r.size
-    # Hertz's shape with the opening of JKR's contact
-    j = np.sqrt(2 * np.pi * edge * energy)
-    outside = np.maximum(r, edge)
-    angle = np.arccos(edge / outside)
-    shape = edge * np.sqrt(outside**2 - edge**2) + (outside**2 - 2 * edge**2) * angle
-    e = (shape + 2 * j * angle) / np.pi + (pinned - 1) / tabor * np.exp(-(((r - edge) / zone) ** 2))
-    depth = edge**2 - j
+    opening, depth = _jkr(r, edge, energy)
+    e = opening + (pinned - 1) / tabor * np.exp(-(((r - edge) / zone) ** 2))
     matrix = np.zeros((n + 1, n + 1))
     matrix[n, :n] = lag[middle] * tabor
     for _ in range(_ROUNDS):
@@ -125,27 +103,26 @@ def _contact(tabor, edge, zone, solid, speed, energy, refined):
             part /= 2
         e, depth = e + part * step[:n], depth + part * step[n]
         if part == 1 and np.max(np.abs(step[:n])) * tabor < _CLOSE:
-            tension = 2 * np.pi * float(mass @ (tabor * traction))
-            return tension, float(depth), r, gap, traction
+            return 2 * np.pi * float(mass @ (tabor * traction))
     raise RuntimeError(f"no contact was found with its edge at {edge:.4g} at {tabor:g}")
 
 
-class Receded(NamedTuple):
-    """A retraction from rest up to a little beyond its largest tension."""
-
-    force: float
-    time: float
-    depths: np.ndarray
-    forces: np.ndarray
+def _jkr(r, edge, energy=1.0):
+    """Return opening and depth of the contact without range: Hertz's shape, JKR's opening."""
+    j = np.sqrt(2 * np.pi * edge * energy)
+    outside = np.maximum(r, edge)
+    angle = np.arccos(edge / outside)
+    shape = edge * np.sqrt(outside**2 - edge**2) + (outside**2 - 2 * edge**2) * angle
+    return (shape + 2 * j * angle) / np.pi, edge**2 - j
 
 
 def retraction(tabor, solid, *, depth, rate, least, spacing):
-    """Return the retraction of a relaxed contact at a constant rate, marched in time.
+    """Return the largest tension [1.5 pi R dg] of a relaxed contact retracted at a constant rate.
 
-    Lengths in beta, depths in beta^2/R, the rate in beta^2/R per unit of time; the force is over
-    1.5 pi R dg. ``least`` is the smallest radius that the edge may reach, ``spacing`` that of the
-    nodes from there to the start. The displacement of the solid lags behind that of the relaxed
-    solid, node by node; the memory is exact for displacements linear in time.
+    Marched in time; lengths in beta, depths in beta^2/R, the rate in beta^2/R per unit of time.
+    ``least`` is the smallest radius that the edge may reach, ``spacing`` that of the nodes from
+    there to the start. The displacement of the solid lags behind that of the relaxed solid, node
+    by node; the memory is exact for displacements linear in time.
     """
     start = _hertzian_radius(depth)
     inner = _graded(least, spacing)[::-1]
@@ -178,11 +155,7 @@ def retraction(tabor, solid, *, depth, rate, least, spacing):
                 return e, 1 + tabor * (known - lag - compliance * (known - e))
         return None
 
-    j = np.sqrt(2 * np.pi * start)
-    outside = np.maximum(r, start)
-    angle = np.arccos(start / outside)
-    shape = start * np.sqrt(outside**2 - start**2) + (outside**2 - 2 * start**2) * angle
-    found = settled(depth, 0.0, 1.0, (shape + 2 * j * angle) / np.pi)
+    found = settled(depth, 0.0, 1.0, _jkr(r, start)[0])
     if found is None:
         raise RuntimeError("no relaxed contact was found")
     e, gap = found
@@ -190,14 +163,14 @@ def retraction(tabor, solid, *, depth, rate, least, spacing):
     memory = np.repeat(u[:, None], times.size, axis=1)
     time, dt = 0.0, 1e-4 / rate
     edge = r[np.argmax(gap > half_gap())]
-    depths, forces, instants = [depth], [_force(mass, gap, tabor)], [0.0]
+    last, forces, instants = depth, [_force(mass, gap, tabor)], [0.0]
     while True:
         x = dt / times
         decay, mean = np.exp(-x), -np.expm1(-x) / x
         lag = memory @ (weights * decay) + u * (weights @ (mean - decay))
         compliance = solid.instantaneous + weights @ (1 - mean)
         D = depth - rate * (time + dt)
-        found = settled(D, lag, compliance, e - (D - depths[-1]))
+        found = settled(D, lag, compliance, e - (D - last))
         if found is None or (now := r[np.argmax(found[1] > half_gap())]) < edge - _MOVED * spacing:
             dt /= 2
             continue
@@ -207,8 +180,7 @@ def retraction(tabor, solid, *, depth, rate, least, spacing):
         u, time = new, time + dt
         dt *= 1.5 if edge - now < _MOVED / 3 * spacing else 1.0
         dt = min(dt, _LARGEST_STEP / rate)
-        edge = now
-        depths.append(D)
+        edge, last = now, D
         forces.append(_force(mass, gap, tabor))
         instants.append(time)
         if forces[-1] < 0.98 * max(forces) and max(forces) > 0:
@@ -218,8 +190,7 @@ def retraction(tabor, solid, *, depth, rate, least, spacing):
     i = int(np.argmax(forces))
     curve = np.polynomial.Polynomial.fit(instants[i - 2 : i + 3], forces[i - 2 : i + 3], 4)
     grid = np.linspace(instants[i - 1], instants[i + 1], 400)
-    best = grid[np.argmax(curve(grid))]
-    return Receded(float(curve(best)), float(best), np.array(depths), np.array(forces))
+    return float(np.max(curve(grid)))
 
 
 def _force(mass, gap, tabor):
