@@ -54,8 +54,7 @@ def energies():
             color=colour,
         )
     left.axhline(1, color="0.7", lw=0.6)
-    left.set_xlabel(r"speed $|V|$")
-    left.set_ylabel(r"energy $\Gamma$")
+    left.set(xlabel=r"speed $|V|$", ylabel=r"energy $\Gamma$")
     left.legend(loc="upper left")
     for colour, form in zip(COLOURS, closed_forms.FORMS, strict=False):
         length = closed_forms.length_of_strength(form, crack(0.1).traction.reduced().strength)
@@ -65,9 +64,7 @@ def energies():
         off = closed_forms.deviations(form, SPEEDS, crack(0.1), best)
         right.semilogx(SPEEDS, 100 * off, "--", color=colour)
     right.axhline(0, color="0.7", lw=0.6)
-    right.set_xlabel(r"speed $V$")
-    right.set_ylabel("deviation from the steady crack, %")
-    right.set_ylim(None, 42)
+    right.set(xlabel=r"speed $V$", ylabel="deviation from the steady crack, %", ylim=(None, 42))
     right.legend(loc="upper left")
     return figure
 

@@ -120,8 +120,7 @@ def draw_4_6(numbers: Numbers, figure: Figure) -> None:
     right.set_ylim(-12, 15)
     for ax in (left, right):
         ax.set_xlabel(TIP_SPEED)
-    left.set_ylabel(ENERGY)
-    left.set_ylim(0.9, 30)
+    left.set(ylabel=ENERGY, ylim=(0.9, 30))
     right.set_ylabel("simulated, beside theory [%]")
     left.legend(loc="upper left", fontsize="small")
     right.legend()
@@ -182,8 +181,7 @@ def draw_4_7(numbers: Numbers, figure: Figure) -> None:
         right.plot(line, part * line, "k--", lw=0.8)
     decades(left)
     decades(right)
-    left.set_xlabel(r"rate $r_u/(3.24\,\pi^{2/3})$")
-    left.set_ylabel(TIP_SPEED)
+    left.set(xlabel=r"rate $r_u/(3.24\,\pi^{2/3})$", ylabel=TIP_SPEED)
     right.set_xlabel(f"{ENERGY} by Eq. 4.21 and 4.24; dashed: $\\pm$15 %")
     right.set_ylabel("simulated pull-off force over JKR")
     left.legend()
@@ -236,7 +234,6 @@ def draw_alpha(numbers: Numbers, figure: Figure) -> None:
             numbers["modulus_ratio"], of["alpha"], of["alpha"] * of["left"], **style, label=word
         )
     ax.axhline(ALPHA, color="k", ls="--", lw=1, label=r"thesis, $\pi/9$")
-    ax.set_xscale("log")
-    ax.set_xlabel("modulus ratio $k$")
+    ax.set(xscale="log", xlabel="modulus ratio $k$")
     ax.set_ylabel(r"$\alpha = \sigma_c/\sigma_0$; bars: what the fit leaves")
     ax.legend()

@@ -56,10 +56,8 @@ def draw_2_1(numbers: Numbers, figure: Figure) -> None:
         right.plot(
             numbers["inside"][name], numbers["pressure"][name], color=COLOURS[i], label=label
         )
-    left.set_ylim(-2.1, 1.0)
-    left.set_ylabel(r"height / $(\pi^2 R\,\Delta\gamma_0^2/E^{*2})^{1/3}$")
-    right.set_ylim(-2.0, 1.2)
-    right.set_ylabel(r"pressure $p\,/\,(E^{*2}\pi\Delta\gamma_0/R)^{1/3}$")
+    left.set(ylim=(-2.1, 1.0), ylabel=r"height / $(\pi^2 R\,\Delta\gamma_0^2/E^{*2})^{1/3}$")
+    right.set(ylim=(-2.0, 1.2), ylabel=r"pressure $p\,/\,(E^{*2}\pi\Delta\gamma_0/R)^{1/3}$")
     for ax in (left, right):
         ax.set_xlabel(r"position / $(\pi R^2\Delta\gamma_0/E^*)^{1/3}$")
         ax.axhline(0, color="0.5", lw=0.8)
@@ -177,7 +175,5 @@ def draw_2_2a(numbers: Numbers, figure: Figure) -> None:
     }
     for name, place in at.items():
         ax.text(place[0], place[1], name, ha="center", va="center")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel(r"Tabor number $\mu$")
+    ax.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
     ax.set_ylabel(r"load / $\pi R\,\Delta\gamma_0$")

@@ -69,8 +69,7 @@ def draw_5_5(numbers: Numbers, figure: Figure) -> None:
         axes, ("ml", "paml"), ("XGBoost", "forest, descriptor"), strict=True
     ):
         drawn(ax, numbers, name)
-        ax.set_title(title)
-        ax.set_xlabel(RATE)
+        ax.set(title=title, xlabel=RATE)
     axes[0].set_ylabel(FORCE)
     legend(axes[1])
 
@@ -167,10 +166,8 @@ def draw_5_8(numbers: Numbers, figure: Figure) -> None:
             for level, words in ((1 / K, "$1/k$"), (4 / (3 * K), "$4/3k$")):
                 ax.axhline(level, color="k", ls="-.", lw=0.8)
                 ax.text(0.3, level + 0.15, words)
-        ax.set_xscale("log")
-        ax.set_ylim(0, None)
-        ax.set_title(rf"rate $10^{{{np.log10(numbers['rate'][i]):.0f}}}$")
-        ax.set_xlabel(DEPTH)
+        ax.set(xscale="log", ylim=(0, None))
+        ax.set(title=rf"rate $10^{{{np.log10(numbers['rate'][i]):.0f}}}$", xlabel=DEPTH)
     axes[0].set_ylabel(FORCE)
     axes[1].plot([], [], **MODEL, color="0.4", label="PA-ML")
     axes[1].legend()

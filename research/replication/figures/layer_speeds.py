@@ -31,9 +31,7 @@ def draw_3_8(numbers: Numbers, figure: Figure) -> None:
         style = SIMULATED | {"color": COLOURS[i], "marker": MARKERS[i]}
         ax.plot(numbers["speed"][i], numbers["force"][i], **style, label=f"$b$ = {b:g} $a_0$")
     decades(ax, y=False)
-    ax.set_ylim(0, 1.05)
-    ax.set_xlabel(SPEED)
-    ax.set_ylabel(r"pull-off stress / $\sigma_0$")
+    ax.set(ylim=(0, 1.05), xlabel=SPEED, ylabel=r"pull-off stress / $\sigma_0$")
     ax.legend()
 
 
@@ -99,8 +97,7 @@ def draw_3_9(numbers: Numbers, figure: Figure) -> None:
     right.set_yticks([1, 2, 5, 10], ["1", "2", "5", "10"])
     right.set_xticks([2, 5, 10, 20, 30], ["2", "5", "10", "20", "30"])
     right.minorticks_off()
-    right.set_xlabel("layer thickness $b/a_0$")
-    right.set_ylabel(f"largest {ENERGY}, rate 100 $h_0/\\tau$")
+    right.set(xlabel="layer thickness $b/a_0$", ylabel=f"largest {ENERGY}, rate 100 $h_0/\\tau$")
     right.legend(fontsize=7.5, loc="lower right")
 
 
@@ -113,9 +110,7 @@ def curves(ax: Any, numbers: Numbers, theory: Numbers, words: str) -> None:
     ax.plot([], [], "k--", label=words)
     ax.axhline(1 / K, color="0.5", lw=0.8)
     decades(ax, y=False)
-    ax.set_ylim(0, 11)
-    ax.set_xlabel(SPEED)
-    ax.set_ylabel(ENERGY)
+    ax.set(ylim=(0, 11), xlabel=SPEED, ylabel=ENERGY)
     ax.legend()
 
 
@@ -141,8 +136,7 @@ def draw_3_10(numbers: Numbers, figure: Figure) -> None:
         decades(ax, y=False)
         ax.set_xlabel(words)
         ax.axhline(1, color="0.5", lw=0.8)
-    left.set_ylim(0, None)
-    left.set_ylabel(r"work of separation / $\Delta\gamma_0$")
+    left.set(ylim=(0, None), ylabel=r"work of separation / $\Delta\gamma_0$")
     left.legend()
 
 

@@ -54,8 +54,7 @@ def draw_3_3(numbers: Numbers, figure: Figure) -> None:
     for name, word in (("b0", "$b_0$"), ("b0_fast", "$b_0/k$"), ("b1", "$b_1$")):
         ax.axvline(numbers[name], color="0.6", lw=0.8)
         ax.text(numbers[name] * 1.06, 0.055, word)
-    ax.set_ylim(0.05, 1.3)
-    ax.set_xlabel("layer thickness $b/a_0$")
+    ax.set(ylim=(0.05, 1.3), xlabel="layer thickness $b/a_0$")
     ax.set_ylabel(r"pull-off stress / $\sigma_0$")
     ax.legend(loc="upper right")
 
@@ -96,8 +95,7 @@ def draw_3_6(numbers: Numbers, figure: Figure) -> None:
     decades(ax)
     ax.set_yticks([0.1, 0.2, 0.5, 1.0], ["0.1", "0.2", "0.5", "1"])
     ax.minorticks_off()
-    ax.set_xlabel("layer thickness $b/a_0$")
-    ax.set_ylabel(r"pull-off stress / $\sigma_0$")
+    ax.set(xlabel="layer thickness $b/a_0$", ylabel=r"pull-off stress / $\sigma_0$")
     ax.legend()
 
 

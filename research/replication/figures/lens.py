@@ -104,8 +104,7 @@ def draw_4_9(numbers: Numbers, figure: Figure) -> None:
         label = rf"$h_0$ = {name.replace('um', 'µm')}, $\mu$ = {of['tabor']:.3g}; {read}"
         ax.plot(of["radius"], of["force"], color=COLOURS[i], label=label)
     ax.set(xlim=(0, 0.32), ylim=(-7.5, 4))
-    ax.set_xlabel("contact radius [mm]")
-    ax.set_ylabel("force [mN], 0.98 µm/s")
+    ax.set(xlabel="contact radius [mm]", ylabel="force [mN], 0.98 µm/s")
     ax.legend(loc="upper left")
 
 
@@ -206,8 +205,7 @@ def draw_4_10(numbers: Numbers, figure: Figure) -> None:
     right.set_yticks([1, 2, 5, 10], ["1", "2", "5", "10"])
     for ax in (left, right):
         ax.minorticks_off()
-    left.set_xlabel("retraction speed [µm/s]")
-    left.set_ylabel("pull-off force [mN]")
+    left.set(xlabel="retraction speed [µm/s]", ylabel="pull-off force [mN]")
     right.set_xlabel("crack speed at pull-off [µm/s]")
     right.set_ylabel(r"energy or force ratio / $\Delta\gamma_0$, $P_{JKR}$")
     left.legend()
@@ -221,8 +219,7 @@ def draw_4_10(numbers: Numbers, figure: Figure) -> None:
     quotient.plot(axis, printed, "k-", label="printed, $1+(v/v_1)^{1/2}$")
     decades(quotient, y=False)
     quotient.axhline(1, color="0.5", lw=0.8)
-    quotient.set_xlabel("crack speed by Eq. 4.24 [µm/s]")
-    quotient.set_ylabel("measured over linear")
+    quotient.set(xlabel="crack speed by Eq. 4.24 [µm/s]", ylabel="measured over linear")
     quotient.legend()
 
 
@@ -290,8 +287,7 @@ def draw_linear_curve(numbers: Numbers, figure: Figure) -> None:
         ax.plot(v, numbers["force"][i] / numbers["linear"], color=COLOURS[rank], label=label)
     ax.axhline(1.0, color="k", lw=0.8)
     decades(ax, y=False)
-    ax.set_xlabel("retraction speed [um/s]")
-    ax.set_ylabel("force over the thesis's linear curve")
+    ax.set(xlabel="retraction speed [um/s]", ylabel="force over the thesis's linear curve")
     ax.legend(fontsize=8)
 
 

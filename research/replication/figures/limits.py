@@ -175,8 +175,6 @@ def draw_printed_algorithm(numbers: Numbers, figure: Figure) -> None:
     for i, nodes in enumerate(numbers["nodes"]):
         style = {"ls": ":", "marker": "os"[i], "mfc": "none", "color": COLOURS[i]}
         ax.plot(numbers["tabor"], numbers["force"][i], **style, label=f"{nodes:g} equal nodes")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel(r"Tabor number $\mu$")
+    ax.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
     ax.set_ylabel("largest tension over JKR")
     ax.legend()

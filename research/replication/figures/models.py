@@ -58,8 +58,7 @@ def draw_A_4(numbers: Numbers, figure: Figure) -> None:
         ax.plot(of["true"], of["predicted"], "o", ms=2, mfc="none", mew=0.5, color=COLOURS[0])
         ends = np.array([0, np.max(of["true"])])
         ax.plot(ends, ends, "k--", lw=0.8)
-        ax.set_title(f"{name}: $R^2$ = {of['r2']:.4f}")
-        ax.set_xlabel("$\\log_{10}$ force, simulated")
+        ax.set(title=f"{name}: $R^2$ = {of['r2']:.4f}", xlabel="$\\log_{10}$ force, simulated")
     figure.axes[0].set_ylabel("$\\log_{10}$ force, predicted")
 
 
@@ -137,8 +136,7 @@ def draw_A_8(numbers: Numbers, figure: Figure) -> None:
     )
     ax.axvline(numbers["thesis_rounds"], color="k", ls="--", lw=1, label="thesis, 689")
     decades(ax)
-    ax.set_xlabel("boosting round")
-    ax.set_ylabel(r"root mean square error of $\log_{10}$ force")
+    ax.set(xlabel="boosting round", ylabel=r"root mean square error of $\log_{10}$ force")
     ax.legend()
 
 
@@ -169,8 +167,7 @@ def draw_A_9(numbers: Numbers, figure: Figure) -> None:
     ax.plot(numbers["trees"], numbers["learned"], "o:", color=COLOURS[0], label="rows learned from")
     ax.plot(numbers["trees"], numbers["held_out"], "o-", color=COLOURS[1], label="rows held out")
     decades(ax)
-    ax.set_xlabel("trees")
-    ax.set_ylabel(r"root mean square error of $\log_{10}$ force")
+    ax.set(xlabel="trees", ylabel=r"root mean square error of $\log_{10}$ force")
     ax.legend()
 
 
@@ -280,6 +277,5 @@ def draw_published_rows(numbers: Numbers, figure: Figure) -> None:
             label = f"here, on its {numbers['rows']:.0f} rows"
             ax.plot(x, of["mse"][order], "o", color=COLOURS[i], label=label)
         ax.set_xticks(np.arange(len(models)), [name.replace(" ", "\n") for name in models])
-        ax.set_yscale("log")
-        ax.set_ylabel(f"mean square error of the {what} [1e-3]")
+        ax.set(yscale="log", ylabel=f"mean square error of the {what} [1e-3]")
         ax.legend()

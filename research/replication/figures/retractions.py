@@ -65,8 +65,7 @@ def draw_5_2(numbers: Numbers, figure: Figure) -> None:
             ax.plot(one["depth"], one["force"], color=COLOURS[i], label=words.format(case[which]))
         ax.axhline(0, color="0.5", lw=0.8)
         ax.set_ylim(*((-3, 5) if name == "saturation" else (-11, 15)))
-        ax.set_xlabel(DEPTH)
-        ax.set_ylabel(PULL)
+        ax.set(xlabel=DEPTH, ylabel=PULL)
         ax.legend()
 
 
@@ -108,9 +107,7 @@ def draw_5_12(numbers: Numbers, figure: Figure) -> None:
         style = {"color": COLOURS[i], "marker": "os^"[i], "capsize": 3, "lw": 1}
         ax.errorbar(x + 0.08 * (i - 1), mse, spread, **style, label=activation)
     ax.set_xticks(x, numbers["layers"])
-    ax.set_yscale("log")
-    ax.set_xlabel("neurons by layer")
-    ax.set_ylabel("mean square error, standardised")
+    ax.set(yscale="log", xlabel="neurons by layer", ylabel="mean square error, standardised")
     ax.legend(title="activation")
 
 
@@ -182,9 +179,7 @@ def draw_5_13(numbers: Numbers, figure: Figure) -> None:
     for side, title in enumerate(
         (r"rate $10^5$, $n$ = 1.6", r"rate $10^2$, start at 10.5 $\mu\pi^{2/3}$")
     ):
-        axes[side].set_title(title)
-        axes[side].set_xlabel(DEPTH)
-        axes[side].set_ylim(-11.5, 60)
+        axes[side].set(title=title, xlabel=DEPTH, ylim=(-11.5, 60))
         axes[2 + side].set_ylim(-11.5, 40)
         axes[side].legend(title="dots: network", ncols=2)
         for row in (1, 2):

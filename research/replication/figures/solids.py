@@ -43,8 +43,7 @@ def draw_4_2(numbers: Numbers, figure: Figure) -> None:
         for n, of in numbers[name].items():
             style = "-" if float(n) else "--"
             ax.plot(numbers["time"], of, style, color=colour(float(n)), label=words(float(n)))
-        ax.set_xscale("log")
-        ax.set_xlabel(r"time / $\tau_0$")
+        ax.set(xscale="log", xlabel=r"time / $\tau_0$")
     for n, of in numbers["relaxation_of_the_creep"].items():
         left.plot(numbers["time"], of, ":", color=colour(float(n)))
     left.plot([], [], "k:", label="relaxation of the solids in (b)")
@@ -136,9 +135,7 @@ def draw_A_3(numbers: Numbers, figure: Figure) -> None:
         left.plot(v[slow], numbers["q1_exact"][i] * v[slow], ":", color=COLOURS[i])
     left.plot([], [], "k:", label=r"$\pi n(1-k)\,\hat v$")
     decades(left)
-    left.set_ylim(1e-6, 20)
-    left.set_xlabel(TIP_SPEED)
-    left.set_ylabel(r"$\Gamma - 1$, $k$ = 0.1")
+    left.set(ylim=(1e-6, 20), xlabel=TIP_SPEED, ylabel=r"$\Gamma - 1$, $k$ = 0.1")
     left.legend()
     n = numbers["exponent"]
     right.plot(n, numbers["q1_printed"], "s", mfc="none", color=COLOURS[0], label="$q_1$ printed")
@@ -153,6 +150,5 @@ def draw_A_3(numbers: Numbers, figure: Figure) -> None:
         label="10 $m_2$, $k$ = $10^{-4}$, $v$ = 1 to $10^3$",
     )
     right.plot(n, 10 * numbers["m2_limit"], "-", color=COLOURS[1], label=r"10 $n/(1+n)$ or 5")
-    right.set_xlabel("exponent $n$")
-    right.set_ylabel("$q_1$, 10 $m_2$")
+    right.set(xlabel="exponent $n$", ylabel="$q_1$, 10 $m_2$")
     right.legend()

@@ -106,8 +106,7 @@ def draw_4_4(numbers: Numbers, figure: Figure) -> None:
     ax.set_ylim(1.2, 20)
     ax.set_yticks([1.5, 5, 10, 15], ["1.5", "5", "10", "15"])
     ax.minorticks_off()
-    ax.set_xlabel(TIP_SPEED)
-    ax.set_ylabel(r"pull-off force $\hat P_{po}$ / $\pi R\,\Delta\gamma_0$")
+    ax.set(xlabel=TIP_SPEED, ylabel=r"pull-off force $\hat P_{po}$ / $\pi R\,\Delta\gamma_0$")
     ax.legend()
 
 
@@ -184,9 +183,7 @@ def draw_4_5(numbers: Numbers, figure: Figure) -> None:
     right.set_ylim(1.2, 25)
     left.set_xlabel(r"start $a_0/(\pi R^2\Delta\gamma_0/E_0^*)^{1/3}$")
     left.set_ylabel(r"pull-off force $\hat P_{po}$, rate $10^{0.5}$")
-    middle.set_xlabel(RATE)
-    middle.set_ylabel("threshold of the start")
-    right.set_xlabel("threshold of the start")
-    right.set_ylabel(r"pull-off force $\hat P_{po}$ there")
+    middle.set(xlabel=RATE, ylabel="threshold of the start")
+    right.set(xlabel="threshold of the start", ylabel=r"pull-off force $\hat P_{po}$ there")
     middle.legend(handles=left.get_lines()[:4], loc="upper left")
     right.legend()

@@ -42,8 +42,7 @@ def draw_5_9(numbers: Numbers, figure: Figure) -> None:
             ax.plot(numbers["rate"], of[name], **MODEL, color=hue, label=words(n))
             ax.plot(numbers["simulated_rate"], of["simulated"], **SIMULATED, marker="^", color=hue)
         decades(ax)
-        ax.set_title(title)
-        ax.set_xlabel(RATE)
+        ax.set(title=title, xlabel=RATE)
     axes[0].set_ylabel(WORK)
     axes[0].plot([], [], **SIMULATED, marker="^", color="0.3", label="simulated")
     axes[0].legend()
@@ -85,8 +84,7 @@ def draw_5_10(numbers: Numbers, figure: Figure) -> None:
             )
             ax.plot(numbers["rate"], of["paml"][i], **MODEL, color=COLOURS[i])
         decades(ax)
-        ax.set_title(f"$n$ = {n:g}")
-        ax.set_xlabel(RATE)
+        ax.set(title=f"$n$ = {n:g}", xlabel=RATE)
     axes[0].set_ylabel(WORK)
     axes[1].plot([], [], **MODEL, color="0.4", label="PA-ML")
     axes[1].legend(loc="lower right")
@@ -134,8 +132,7 @@ def draw_A_6(numbers: Numbers, figure: Figure) -> None:
     ax.plot(mu, numbers["fast"], **SIMULATED, marker="v", color=COLOURS[3], label="at $10^9$")
     ax.plot(mu, numbers["paml"], ".", color=COLOURS[0], ms=9, label="PA-ML")
     decades(ax)
-    ax.set_xlabel(r"Tabor number $\mu$")
-    ax.set_ylabel(f"{WORK}, rate $10^5$")
+    ax.set(xlabel=r"Tabor number $\mu$", ylabel=f"{WORK}, rate $10^5$")
     ax.legend()
 
 
@@ -171,9 +168,7 @@ def draw_A_7(numbers: Numbers, figure: Figure) -> None:
     ax.axhline(numbers["rubbery"], color="k", ls="--", lw=1, label="Eq. 46, rubbery")
     ax.axhline(numbers["glassy"], color="k", ls="-.", lw=1, label="Eq. 43, glassy")
     decades(ax)
-    ax.set_ylim(3, 200)
-    ax.set_xlabel(RATE)
-    ax.set_ylabel(WORK)
+    ax.set(ylim=(3, 200), xlabel=RATE, ylabel=WORK)
     ax.legend(loc="upper right")
 
 
