@@ -14,7 +14,7 @@ import numpy as np
 from viscotack import datasets
 
 from ..learning.features import Target, crack_amplification, features, target
-from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, trained
+from ..learning.learners import Learner, trained
 from ..learning.thesis import TABLES
 from ..learning.validation import Score, random_split, score
 from ..table import Detachments, read_detachments
@@ -24,10 +24,10 @@ SEED = 42
 # What is learned, whether with the descriptor, and by what.
 Trial = tuple[Target, bool, Learner]
 # Models that the thesis means by ML and PA-ML, of the force and of the work.
-FORCE_ML = (Target.FORCE, False, BOOSTING)
-FORCE_PAML = (Target.FORCE, True, FOREST)
-WORK_ML = (Target.WORK, False, FOREST)
-WORK_PAML = (Target.WORK, True, FOREST)
+FORCE_ML = (Target.FORCE, False, Learner.BOOSTING)
+FORCE_PAML = (Target.FORCE, True, Learner.FOREST)
+WORK_ML = (Target.WORK, False, Learner.FOREST)
+WORK_PAML = (Target.WORK, True, Learner.FOREST)
 
 
 @lru_cache(1)
@@ -70,7 +70,7 @@ def analytic(**columns: Any) -> Any:
 def of_table(number: str, each: Callable[..., Any]) -> dict[str, Any]:
     """Return the entries of a table of the thesis, from five random folds, beside the printed."""
     printed = TABLES[number]
-    trials = [(printed.target, printed.descriptor, LEARNERS[name]) for name in printed.entries]
+    trials = [(printed.target, printed.descriptor, Learner(name)) for name in printed.entries]
     scores = list(each(_scored, trials))
     return {
         "model": list(printed.entries),

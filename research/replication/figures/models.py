@@ -11,7 +11,7 @@ from viscotack import InputError
 from ..archive import Learned, learned
 from ..bench import Bench, Numbers
 from ..learning.features import Target, features, inputs, target
-from ..learning.learners import BOOSTING, FOREST, LEARNERS, LINEAR, Learner
+from ..learning.learners import Learner
 from ..learning.thesis import STATISTICS, STOPPED_AT, TABLES
 from ..learning.validation import Score, Split, random_split, score, value_split
 from .learned import FORCE_ML, FORCE_PAML, SEED, held_out, of_table, rows
@@ -39,10 +39,10 @@ def draw_table_models(numbers: Numbers, figure: Figure) -> None:
 
 
 TRIALS = {
-    "A.4": {"Linear regression": (Target.FORCE, False, LINEAR), "XGBoost": FORCE_ML},
+    "A.4": {"Linear regression": (Target.FORCE, False, Learner.LINEAR), "XGBoost": FORCE_ML},
     "A.5": {
         "Forest": FORCE_PAML,
-        "XGBoost": (Target.FORCE, True, BOOSTING),
+        "XGBoost": (Target.FORCE, True, Learner.BOOSTING),
     },
 }
 _POINTS = 800
@@ -185,12 +185,12 @@ def numbers_published_rows(bench: Bench) -> Numbers:
         raise InputError("this needs the authors' archive: give its path by --archive")
     rows = learned(bench.archive)
     found: Numbers = {"rows": len(rows.force)}
-    for table in TABLES.values():
-        of, seed = (table.target, table.descriptor), SEEDS[table.number]
-        tried = [_scored(rows, *of, LEARNERS[name], seed) for name in table.entries]
+    for number, table in TABLES.items():
+        of, seed = (table.target, table.descriptor), SEEDS[number]
+        tried = [_scored(rows, *of, Learner(name), seed) for name in table.entries]
         mse = np.array([1e3 * one.mse.mean() for one in tried])
         printed, spread = np.array([(e.mse, e.mse_spread) for e in table.entries.values()]).T
-        found[table.number] = {
+        found[number] = {
             "model": list(table.entries),
             "mse": mse,
             "spread": [1e3 * one.mse.std() for one in tried],
@@ -204,7 +204,7 @@ def numbers_published_rows(bench: Bench) -> Numbers:
         values = rows.inputs[:, column] if column == 4 else 10 ** rows.inputs[:, column]
         found[words] = [
             _scored(rows, Target.FORCE, *model, split=value_split(values)).pooled_r2
-            for model in ((False, BOOSTING), (True, FOREST))
+            for model in ((False, Learner.BOOSTING), (True, Learner.FOREST))
         ]
     return found | {"grid": _grid(rows)}
 
@@ -228,7 +228,7 @@ def _reduction(rows: Learned, plain: int, augmented: int) -> float:
     best = [
         min(
             float(np.mean(_scored(rows, Target.FORCE, descriptor, learner, seed).mse))
-            for learner in (BOOSTING, FOREST)
+            for learner in (Learner.BOOSTING, Learner.FOREST)
         )
         for descriptor, seed in ((False, plain), (True, augmented))
     ]

@@ -6,53 +6,50 @@ project.
 """
 
 import warnings
-from collections.abc import Callable
-from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 from ..table import Array
 
 
-@dataclass(frozen=True)
-class Learner:
-    """A kind of model, as the tables call it, made from a seed.
+class Learner(StrEnum):
+    """A kind of model, as the tables call it."""
 
-    Its size is the number of trainable parameters, counted as in the thesis: coefficients; leaves
-    less one of a tree; of the first tree, times trees, for the forest; leaves for boosting.
-    """
-
-    name: str
-    make: Callable[[int], Any]
-    size: Callable[[Any], int]
+    LINEAR = "Linear Regression"
+    TREE = "Regression Tree"
+    FOREST = "Random Forest"
+    BOOSTING = "XGBoost"
 
 
 def trained(learner: Learner, X: Array, y: Array, *, seed: int) -> Any:
     """Return an estimator that has learned rows of features and targets."""
-    return learner.make(seed).fit(X, y)
-
-
-def _linear(seed: int) -> Any:
-    from sklearn.linear_model import LinearRegression
-
-    return LinearRegression()
-
-
-def _tree(seed: int) -> Any:
-    from sklearn.tree import DecisionTreeRegressor
-
-    return DecisionTreeRegressor(random_state=seed)
-
-
-def _forest(seed: int) -> Any:
     from sklearn.ensemble import RandomForestRegressor
-
-    return RandomForestRegressor(random_state=seed)
-
-
-def _boosting(seed: int) -> Any:
+    from sklearn.linear_model import LinearRegression
+    from sklearn.tree import DecisionTreeRegressor
     from xgboost import XGBRegressor
 
-    return XGBRegressor(n_estimators=100, random_state=seed, n_jobs=1)
+    estimators = {
+        Learner.LINEAR: LinearRegression(),
+        Learner.TREE: DecisionTreeRegressor(random_state=seed),
+        Learner.FOREST: RandomForestRegressor(random_state=seed),
+        Learner.BOOSTING: XGBRegressor(n_estimators=100, random_state=seed, n_jobs=1),
+    }
+    return estimators[learner].fit(X, y)
+
+
+def size(model: Any) -> int:
+    """Return the number of trainable parameters of an estimator, counted as in the thesis.
+
+    Coefficients; leaves less one of a tree; of the first tree, times trees, for the forest; leaves
+    for boosting.
+    """
+    if hasattr(model, "get_booster"):
+        return sum(tree.count("leaf=") for tree in model.get_booster().get_dump())
+    if hasattr(model, "coef_"):
+        return model.coef_.size + 1
+    if hasattr(model, "estimators_"):
+        return len(model.estimators_) * (model.estimators_[0].get_n_leaves() - 1)
+    return model.get_n_leaves() - 1
 
 
 def network(
@@ -89,17 +86,3 @@ def network(
         # that the last of the rounds was reached is seen in the error on rows held out
         warnings.filterwarnings("ignore", message="Stochastic Optimizer: Maximum iterations")
         return model.fit(X, y)
-
-
-def _boosting_leaves(model: Any) -> int:
-    return sum(tree.count("leaf=") for tree in model.get_booster().get_dump())
-
-
-LINEAR = Learner("Linear Regression", _linear, lambda m: m.coef_.size + 1)
-TREE = Learner("Regression Tree", _tree, lambda m: m.get_n_leaves() - 1)
-FOREST = Learner(
-    "Random Forest", _forest, lambda m: len(m.estimators_) * (m.estimators_[0].get_n_leaves() - 1)
-)
-BOOSTING = Learner("XGBoost", _boosting, _boosting_leaves)
-
-LEARNERS = {learner.name: learner for learner in (LINEAR, TREE, BOOSTING, FOREST)}

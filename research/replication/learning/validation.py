@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..table import Array
-from .learners import Learner, trained
+from .learners import Learner, size, trained
 
 # Neighbouring values of an input closer than this in ln are one value: 3.19, 3.2 and 3.24 are.
 _SAME = 0.06
@@ -89,5 +89,5 @@ def score(X: Array, y: Array, learner: Learner, split: Split, *, seed: int) -> S
         model = trained(learner, X[train], y[train], seed=seed)
         predicted[held] = model.predict(X[held])
         mse = float(np.mean((y[held] - predicted[held]) ** 2))
-        found.append((mse, r_squared(y[held], predicted[held]), learner.size(model)))
+        found.append((mse, r_squared(y[held], predicted[held]), size(model)))
     return Score(*np.array(found).T, predicted=predicted, true=y)
