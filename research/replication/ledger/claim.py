@@ -1,7 +1,7 @@
 """The claims of the thesis, rows of claims.toml, and how they are judged."""
 
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -50,6 +50,11 @@ class Measured:
     def said(self) -> str:
         """Return what stands in the ledger."""
         return self.words or f"{self.value:.4g}"
+
+
+def listed(form: str, *columns: Iterable[Any]) -> str:
+    """Return the rows of some columns in the words of a form, one after the other."""
+    return ", ".join(form.format(*row) for row in zip(*columns, strict=True))
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from viscotack.theory import greenwood, jkr, maugis, persson_brener, punch
 from ..figures.cases import ALPHA, ALPHA_LJ, LENS, PDMS, PDMS_WORK, solid
 from ..figures.elastic import ONE, UNIT, strength
 from ..figures.lens import SHORT, TIP
-from .claim import Measured, Of
+from .claim import Measured, Of, listed
 
 _SOLID = solid()
 _IN_SI = {"radius": 5e-3, "contact_modulus": 2e6, "work_of_adhesion": 0.15}
@@ -256,8 +256,8 @@ def two_materials(of: Of) -> Measured:
         by_h = np.asarray(RelaxationPowerLaw(exponent=n, **parts).complex_modulus(w))
         by_l = np.asarray(solid(0.1, n).complex_compliance(w))
         found.append(float(np.max(np.abs(by_h * by_l - 1))))
-    words = ", ".join(f"{x:.1f}" for x in found)
-    return Measured(found[0], f"E_H C_L is off 1 by {words} for n = 0.2, 0.6, 1.6")
+    words = f"E_H C_L is off 1 by {listed('{:.1f}', found)} for n = 0.2, 0.6, 1.6"
+    return Measured(found[0], words)
 
 
 def kramers_kronig(of: Of) -> Measured:

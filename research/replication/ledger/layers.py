@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..figures.cases import SIZE as HALF_WIDTH
-from .claim import Measured, Of
+from .claim import Measured, Of, listed
 
 _B0, _B1 = 4 / np.pi, 4 / np.pi * HALF_WIDTH
 
@@ -44,8 +44,8 @@ def _slope(of: Of, rate: int) -> float:
 
 def slow_slope(of: Of) -> Measured:
     found = [_slope(of, i) for i in range(4)]
-    words = ", ".join(f"{x:.2f}" for x in found)
-    return Measured(found[0], f"{words} at rates 0.1, 1, 10, 100 (3 b0 < b < b1/3)")
+    words = f"{listed('{:.2f}', found)} at rates 0.1, 1, 10, 100 (3 b0 < b < b1/3)"
+    return Measured(found[0], words)
 
 
 def fast_slope(of: Of) -> Measured:
@@ -77,8 +77,8 @@ def plateau(of: Of) -> Measured:
         [np.exp(np.interp(np.log(_B1), np.log(n["thickness"]), np.log(s))) for s in n["stress"].T]
     )
     ratio = at / n["stress"][-1]
-    words = ", ".join(f"{x:.2f}" for x in ratio)
-    return Measured(float(ratio[0]), f"{words} times the stress at b = 10 a, by rate")
+    words = f"{listed('{:.2f}', ratio)} times the stress at b = 10 a, by rate"
+    return Measured(float(ratio[0]), words)
 
 
 def envelope(of: Of) -> Measured:
@@ -98,10 +98,8 @@ def narrow(of: Of) -> Measured:
 
 
 def ligament_left(of: Of) -> Measured:
-    n = of("3.7")
-    found = {name: float(part["ligament"]) for name, part in n.items()}
-    words = ", ".join(f"{x:.2f} at b = {name} a" for name, x in found.items())
-    return Measured(found["10"], words)
+    found = {name: float(part["ligament"]) for name, part in of("3.7").items()}
+    return Measured(found["10"], listed("{:.2f} at b = {} a", found.values(), found))
 
 
 def largest(of: Of) -> Measured:
@@ -119,11 +117,8 @@ def largest(of: Of) -> Measured:
 
 def reaches(of: Of) -> Measured:
     n = of("3.9")
-    at = {
-        f"{a:g}": float(e) for a, e in zip(n["inset_size"], n["inset_energy"][:, -1], strict=True)
-    }
-    words = ", ".join(f"{e:.2f} for a = {a} a0" for a, e in at.items())
-    return Measured(at["64.84"], words)
+    energy = n["inset_energy"][:, -1]
+    return Measured(float(energy[1]), listed("{:.2f} for a = {:g} a0", energy, n["inset_size"]))
 
 
 def _beside(of: Of, name: str, part: str) -> Measured:
@@ -156,8 +151,8 @@ def persson(of: Of) -> Measured:
 def gain_of_layers(of: Of) -> Measured:
     n = of("3.8")
     gain = n["force"][:, -1] ** 2 / n["force"][:, 0] ** 2
-    words = ", ".join(f"{x:.2f}" for x in gain)
-    return Measured(float(gain[0]), f"σ² rises by {words} for b = 3.24 to 32.42 a0")
+    words = f"σ² rises by {listed('{:.2f}', gain)} for b = 3.24 to 32.42 a0"
+    return Measured(float(gain[0]), words)
 
 
 def bell(of: Of) -> Measured:
@@ -173,6 +168,5 @@ def bell(of: Of) -> Measured:
 def slow_work(of: Of) -> Measured:
     n = of("3.10")
     over = n["separation"][:, 0] / n["elastic"]
-    return Measured(
-        float(over[0]), ", ".join(f"{x:.2f}" for x in over) + " of the elastic work at rate 0.001"
-    )
+    words = f"{listed('{:.2f}', over)} of the elastic work at rate 0.001"
+    return Measured(float(over[0]), words)

@@ -8,17 +8,15 @@ from ..figures.cases import K
 from ..figures.forces import distance
 from ..learning.thesis import LOGGED_TIME
 from ..table import SAMPLE, read_detachments
-from .claim import Measured, Of
+from .claim import Measured, Of, listed
 
 # What the workers spent on the shipped set (docs/datasets.md).
 _WORKERS_SECONDS = 1436.0
 
 
 def tables(of: Of) -> Measured:
-    n = of("published-rows")
-    within = [w for number in ("5.1", "5.2", "5.3", "5.4") for w in n[number]["within"]]
-    found = sum(bool(w) for w in within)
-    parts = [n[number] for number in ("5.1", "5.2", "5.3", "5.4")]
+    parts = [of("published-rows")[number] for number in ("5.1", "5.2", "5.3", "5.4")]
+    found = sum(bool(w) for part in parts for w in part["within"])
     alike = sum(
         abs(mse - printed) < 1e-4 * printed
         for part in parts
@@ -98,8 +96,7 @@ def best_model(of: Of) -> Measured:
 def work_gain(of: Of) -> Measured:
     plain, augmented = of("table-5.3"), of("table-5.4")
     gain = 1 - augmented["mse"] / plain["mse"]
-    words = ", ".join(f"{100 * g:.0f} % ({m})" for g, m in zip(gain, plain["model"], strict=True))
-    return Measured(float(np.min(gain)), words)
+    return Measured(float(np.min(gain)), listed("{:.0f} % ({})", 100 * gain, plain["model"]))
 
 
 def best_of_work(of: Of) -> Measured:
@@ -139,9 +136,8 @@ def depths(of: Of) -> Measured:
 
 def less(of: Of) -> Measured:
     tops = [float(np.max(part["1.6"]["simulated"])) for part in of("5.6").values()]
-    return Measured(
-        tops[-1] / tops[0], ", ".join(f"{t:.2f}" for t in tops) + " from 60, 30, 15, 7.5 h0"
-    )
+    words = f"{listed('{:.2f}', tops)} from 60, 30, 15, 7.5 h0"
+    return Measured(tops[-1] / tops[0], words)
 
 
 def transition(of: Of) -> Measured:
@@ -221,8 +217,7 @@ def interaction(of: Of) -> Measured:
     at = [[float(n[e]["simulated"][i]) for e in ("0.4", "0.6", "1.6")] for i in (low, high)]
     rates = [float(n["simulated_rate"][i]) for i in (low, high)]
     words = "; ".join(
-        ", ".join(f"{w:.1f}" for w in row) + f" at {r:.2g}"
-        for row, r in zip(at, rates, strict=True)
+        f"{listed('{:.1f}', row)} at {r:.2g}" for row, r in zip(at, rates, strict=True)
     )
     holds = at[0][0] < at[0][1] < at[0][2] and at[1][0] > at[1][1] > at[1][2]
     return Measured(float(holds), f"{words} for n = 0.4, 0.6, 1.6")

@@ -6,7 +6,7 @@ from viscotack.theory import persson_brener, rate
 
 from ..figures.cases import LENS, PDMS, PDMS_WORK, K, solid
 from ..figures.lens import TIP, V1, measured
-from .claim import Measured, Of
+from .claim import Measured, Of, listed
 
 
 def highest(of: Of) -> Measured:
@@ -23,8 +23,8 @@ def speed_needed(of: Of) -> Measured:
         float(np.log10(persson_brener.speed(part / PDMS.modulus_ratio, material=PDMS)))
         for part in (0.5, 0.9, 0.95)
     ]
-    words = ", ".join(f"{x:.2f}" for x in speeds)
-    return Measured(speeds[1], f"log10 v̂ = {words} for 50, 90, 95 % of 1/k")
+    words = f"log10 v̂ = {listed('{:.2f}', speeds)} for 50, 90, 95 % of 1/k"
+    return Measured(speeds[1], words)
 
 
 def retraction(of: Of) -> Measured:
@@ -88,7 +88,7 @@ def quasi_static(of: Of) -> Measured:
 def twice(of: Of) -> Measured:
     n = of("limits")["lens"]
     off = n["simulated"] / n["crack"] - 1
-    pairs = ", ".join(f"{a:.2f}/{b:.2f}" for a, b in zip(n["simulated"], n["crack"], strict=True))
+    pairs = listed("{:.2f}/{:.2f}", n["simulated"], n["crack"])
     return Measured(
         float(np.max(np.abs(off))),
         f"{pairs} mN simulated/steady crack at 1, 10, 100, 1000 µm/s (band "
@@ -108,14 +108,13 @@ def crack_speed(of: Of) -> Measured:
 def limit(of: Of) -> Measured:
     n = of("4.10")
     above = {}
-    for i, name in enumerate(n["range"]):
-        off = n["measured"] / n["force"][i]
-        over = np.flatnonzero(off > 1.15)
-        above[name] = f"{1e6 * n['speed'][over[0]]:.2g} µm/s" if over.size else "none"
-    i = n["range"].index("200 nm")
-    first = float(1e6 * n["speed"][np.flatnonzero(n["measured"] / n["force"][i] > 1.15)[0]])
-    words = ", ".join(f"{at} for {name.replace('um', 'µm')}" for name, at in above.items())
-    return Measured(first, f"measured 15 % above simulated from: {words}")
+    for name, force in zip(n["range"], n["force"], strict=True):
+        above[name] = 1e6 * n["speed"][n["measured"] / force > 1.15]
+    words = ", ".join(
+        f"{f'{v[0]:.2g} µm/s' if v.size else 'none'} for {name.replace('um', 'µm')}"
+        for name, v in above.items()
+    )
+    return Measured(float(above["200 nm"][0]), f"measured 15 % above simulated from: {words}")
 
 
 def doubling(of: Of) -> Measured:
@@ -142,7 +141,7 @@ def slow_enough(of: Of) -> Measured:
     ratio = {
         name: float(p["pull_off_force"] / p["elastic_pull_off_force"]) for name, p in n.items()
     }
-    words = ", ".join(f"{r:.2f} ({name.replace('um', 'µm')})" for name, r in ratio.items())
+    words = listed("{:.2f} ({})", ratio.values(), ratio).replace("um", "µm")
     return Measured(ratio["200 nm"], f"{words} of the elastic force at 0.98 µm/s")
 
 
@@ -176,10 +175,10 @@ def pinned(of: Of) -> Measured:
     n = of("printed-algorithm")
     off = n["force"] / n["expected"]
     words = "; ".join(
-        f"N = {nodes:g}: {', '.join(f'{x:.4g}' for x in row)}"
+        f"N = {nodes:g}: {listed('{:.4g}', row)}"
         for nodes, row in zip(n["nodes"], off, strict=True)
     )
-    at = ", ".join(f"{mu:g}" for mu in n["tabor"])
+    at = listed("{:g}", n["tabor"])
     return Measured(
         float(np.min(off[:, -1])),
         f"{words} times the elastic force at μ = {at} (below 1: given up)",

@@ -6,14 +6,14 @@ from viscotack.theory import persson_brener
 
 from ..figures import edge_speed, starts
 from ..figures.cases import ALPHA, CHAPTER_4, TABOR, K, elastic_ratio, solid
-from .claim import Measured, Of
+from .claim import Measured, Of, listed
 
 
 def slow_force(of: Of) -> Measured:
     n = of("limits")
-    at = {float(mu): float(f) for mu, f in zip(n["tabor"], n["slow"], strict=True)}
-    words = ", ".join(f"{f:.4f} at μ = {mu:g}" for mu, f in at.items())
-    return Measured(at[3.24], f"{words} (errors below {100 * np.nanmax(n['slow_error']):.1g} %)")
+    words = listed("{:.4f} at μ = {:g}", n["slow"], n["tabor"])
+    at = float(n["slow"][n["tabor"] == TABOR][0])
+    return Measured(at, f"{words} (errors below {100 * np.nanmax(n['slow_error']):.1g} %)")
 
 
 def slow_twice(of: Of) -> Measured:
@@ -26,7 +26,7 @@ def slow_twice(of: Of) -> Measured:
 
 def fast_force(of: Of) -> Measured:
     n = of("limits")
-    words = ", ".join(f"{f:.4f} from {d:g} h0" for d, f in zip(n["depth"], n["fast"], strict=True))
+    words = listed("{:.4f} from {:g} h0", n["fast"], n["depth"])
     return Measured(
         float(n["fast"][-1]), f"{words}; theory {float(n['fast_theory']):.4f} for k P/P_JKR"
     )
@@ -52,21 +52,15 @@ def alpha(of: Of) -> Measured:
 
 def alpha_by_k(of: Of) -> Measured:
     n = of("alpha")
-    words = ", ".join(
-        f"{a:.3f} (k = {k:g})"
-        for k, a in zip(n["modulus_ratio"], n["over f"]["alpha"], strict=True)
-    )
-    spread = float(np.ptp(n["over f"]["alpha"]) / ALPHA)
-    return Measured(spread, words)
+    found = n["over f"]["alpha"]
+    words = listed("{:.3f} (k = {:g})", found, n["modulus_ratio"])
+    return Measured(float(np.ptp(found) / ALPHA), words)
 
 
 def alpha_steady(of: Of) -> Measured:
     n = of("alpha")
-    words = ", ".join(
-        f"{a:.3f} (k = {k:g})"
-        for k, a in zip(n["modulus_ratio"], n["steady"]["alpha"], strict=True)
-    )
-    return Measured(float(n["steady"]["alpha"][4]), words)
+    found = n["steady"]["alpha"]
+    return Measured(float(found[4]), listed("{:.3f} (k = {:g})", found, n["modulus_ratio"]))
 
 
 def agreement(of: Of) -> Measured:
@@ -122,10 +116,9 @@ def standard_solid(of: Of) -> Measured:
 
 
 def spectrum(of: Of) -> Measured:
-    n = of("4.3")["exponent"]
-    forces = [float(c["pull_off_force"]) for c in n["curves"]]
-    words = ", ".join(f"{f:.3f}" for f in forces)
-    return Measured(forces[-1] / forces[0], f"P̂ = {words} for n = 0.6, 0.8, 1.6")
+    forces = [float(curve["pull_off_force"]) for curve in of("4.3")["exponent"]["curves"]]
+    words = f"P̂ = {listed('{:.3f}', forces)} for n = 0.6, 0.8, 1.6"
+    return Measured(forces[-1] / forces[0], words)
 
 
 def speed_fit(of: Of) -> Measured:
@@ -222,8 +215,7 @@ def above(of: Of) -> Measured:
 def start(of: Of) -> Measured:
     n = of("4.4")
     top = np.nanmax(n["force"], axis=1)
-    words = ", ".join(f"{f:.2f} from {a:g}" for a, f in zip(n["start"], top, strict=True))
-    return Measured(float(top[0]), f"largest P̂ {words}")
+    return Measured(float(top[0]), f"largest P̂ {listed('{:.2f} from {:g}', top, n['start'])}")
 
 
 def slow_coefficient(of: Of) -> Measured:
@@ -239,12 +231,10 @@ def slow_coefficient(of: Of) -> Measured:
 
 def second_law(of: Of) -> Measured:
     n = of("A.3")
-    words = ", ".join(
-        f"{m:.2f} (n = {e:g})" for e, m in zip(n["exponent"], n["m2_fitted_small_k"], strict=True)
-    )
+    found = n["m2_fitted_small_k"]
+    words = listed("{:.2f} (n = {:g})", found, n["exponent"])
     return Measured(
-        float(n["m2_fitted_small_k"][-1]),
-        f"{words}, k = 1e-4, v̂ from 1 to 1000; limit n/(1 + n) or 1/2",
+        float(found[-1]), f"{words}, k = 1e-4, v̂ from 1 to 1000; limit n/(1 + n) or 1/2"
     )
 
 
@@ -268,7 +258,7 @@ def upper_between(of: Of) -> Measured:
 def upper_fast(of: Of) -> Measured:
     n = of("A.6")
     ratio = n["simulated"] / n["estimate"]
-    words = ", ".join(f"{r:.2f} (μ = {mu:g})" for mu, r in zip(n["tabor"], ratio, strict=True))
+    words = listed("{:.2f} (μ = {:g})", ratio, n["tabor"])
     return Measured(float(np.max(ratio)), f"{words} of Eq. 43 at rate 1e5")
 
 
