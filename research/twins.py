@@ -31,7 +31,7 @@ Lengths are in a0, gap and depth in h0, the pressure p in dg/h0 and positive in 
     h_i = 1 - \delta + u_i, \qquad u_i^{(q)} = \frac{\pi}{2 \hat\sigma_0^2} \sum_j G_{ij}
       \Big\{p_j^{(0)} + \sum_{m=0}^{q-1} \bar C_{q-1-m} \big(p_j^{(m+1)} - p_j^{(m)}\big)\Big\}
 
-with the mean creep compliance of each step and :math:`\hat\sigma_0 = 16/(9\sqrt3)`.
+with :math:`\hat\sigma_0 = 16/(9\sqrt3)`.
 """
 
 from __future__ import annotations
@@ -140,27 +140,10 @@ def plain_sphere(
     steps: int,
     last_depth: float,
 ) -> Result:
-    """Simulate a retraction from a relaxed depth with the published algorithm.
+    """Simulate the retraction of a sphere with the published algorithm: see :func:`retract`.
 
-    Parameters
-    ----------
-    problem : Problem or Groups
-        The start must be by depth and the traction law Lennard-Jones.
-    nodes : int
-        Equally spaced nodes from 0 to `outer_radius`; the thesis takes 500.
-    outer_radius : float
-        Last node [beta]; the force of the tail beyond it is added.
-    steps : int
-        Equal time steps from the start to `last_depth`.
-    last_depth : float
-        Depth of the drive at the end [h0], below the start.
-
-    Returns
-    -------
-    Result
-        Ends early just past the first minimum of the force, where a jump may follow: a larger
-        second peak of a fast deep pull is not seen. A status "stopped" means that Newton's method
-        failed.
+    The nodes are equally spaced from 0 to `outer_radius` [beta], beyond which the force of the tail
+    is added; the thesis takes 500.
     """
     groups = problem.groups()
     start: Any = groups.start
@@ -199,6 +182,10 @@ def retract(
     last_depth: float,
 ) -> Result:
     """March from a relaxed depth to the last one [h0] in equal steps: the loop of Appendix V.
+
+    The problem starts by depth and has a Lennard-Jones law. The result ends early just past the
+    first minimum of the force, where a jump may follow: a larger second peak of a fast deep pull is
+    not seen. A status "stopped" means that Newton's method failed.
 
     Displacement [h0] is `matrix` times sigma, `base` the gap [h0] at depth zero, `guess` the gap
     from which the first Newton starts; `force` tells the force of sigma and gap, `edge` the contact
@@ -307,25 +294,9 @@ def _panels(low: float, high: float, count: int) -> tuple[npt.NDArray, npt.NDArr
 
 
 def plain_punch(problem: Case, *, triangles: int, steps: int, last_depth: float) -> Result:
-    """Simulate a retraction from a relaxed depth with the published algorithm.
+    """Simulate the retraction of a punch with the published algorithm: see :func:`retract`.
 
-    Parameters
-    ----------
-    problem : Problem or Groups
-        The start must be by depth and the traction law Lennard-Jones.
-    triangles : int
-        M, spacings under the punch; the thesis takes 200.
-    steps : int
-        Equal time steps from the start to `last_depth`.
-    last_depth : float
-        Depth of the drive at the end [h0], below the start.
-
-    Returns
-    -------
-    Result
-        Ends early just past the first minimum of the force, where a jump may follow: a larger
-        second peak of a fast deep pull is not seen. A status "stopped" means that Newton's method
-        failed.
+    `triangles` is M, the spacings under the punch; the thesis takes 200.
     """
     groups = problem.groups()
     start: Any = groups.start

@@ -20,35 +20,18 @@ LEAST_STEEP = {"force_error": 1.5e-3, "work_error": 2e-2}
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a dataset.
-
-    Attributes
-    ----------
-    name : str
-        Name in the dataset.
-    unit : str
-        Unit as in docs/symbols.md; "1" if dimensionless.
-    words : str
-        Description.
-    source : str
-        Name in a campaign.
-    form : {"exact", "number", "whole", "curve", "spectrum"}
-        Exact numbers keep all digits; others are rounded to seven, far more than their accuracy; a
-        curve is a list of 24 numbers; a spectrum is a list of exact numbers, one per time of the
-        solid.
-    less : str
-        Name of a number to subtract; "" for none.
-    error : bool
-        Whether it is an error, bounded below by :func:`least_errors`.
-    """
+    """A column of a dataset."""
 
     name: str
-    unit: str
+    unit: str  # as in docs/symbols.md; "1" if dimensionless
     words: str
-    source: str = ""
+    source: str = ""  # name in a campaign
+    # "exact" numbers keep all digits; a "number" is rounded to seven, far more than its accuracy;
+    # a "curve" is a list of 24 numbers; a "spectrum" is a list of exact numbers, one per time of
+    # the solid; "whole" numbers are integers.
     form: str = "number"
-    less: str = ""
-    error: bool = False
+    less: str = ""  # name of a number to subtract
+    error: bool = False  # bounded below by `least_errors`
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "source", self.source or self.name)

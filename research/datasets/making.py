@@ -28,12 +28,9 @@ CITATION = "The viscotack developers: open datasets of viscoelastic detachment, 
 
 @dataclass(frozen=True)
 class Targets:
-    """Target relative errors of a case; less accurate cases are run again with refinement.
+    """Target relative errors of the pull-off force (or stress) and of the work to pull-off.
 
-    Attributes
-    ----------
-    force, work : float
-        Relative errors of the pull-off force (or stress) and of the work to pull-off.
+    Less accurate cases are run again with refinement.
     """
 
     force: float = 2e-3
@@ -72,34 +69,11 @@ def make(
     cases: int | None = None,
     report: Callable[[Progress], None] | None = None,
 ) -> Path:
-    """Run the missing cases of a dataset, and return the path of its file.
+    """Run the missing cases of a dataset, and return the path of its file, ``NAME.parquet``.
 
-    Parameters
-    ----------
-    name : str
-        One of ``viscotack.datasets.NAMES``.
-    folder : path
-        Folder of the campaigns ``first``, ``finer-1`` and ``finer-2``; run again to continue.
-    workers : int
-        Number of processes.
-    targets : Targets, optional
-        Errors above which a case is run again; by default 0.2 % and 0.5 %; for `fresh` and
-        `hard` 0.4 % and 2 %, with one refined pass; `solids`, `rough`, `deep` and `sharp` have
-        none.
-    cases : int, optional
-        Compute only the first cases of the plan, which for a Sobol plan cover the whole range.
-    report : callable, optional
-        Progress callback, called for each campaign.
-
-    Returns
-    -------
-    Path
-        ``NAME.parquet`` in the folder.
-
-    Raises
-    ------
-    RuntimeError
-        If a campaign was stopped before its end.
+    The folder has the campaigns ``first``, ``finer-1`` and ``finer-2``; run again to continue. With
+    `cases` only the first cases of the plan are computed, which for a Sobol plan cover the whole
+    range. `report` is called for each campaign.
     """
     folder = Path(folder)
     passes, usual = how(name)

@@ -51,12 +51,7 @@ _RUNNING = {np.maximum: "ReduceMax", np.minimum: "ReduceMin"}
 
 @dataclass(eq=False)
 class Graph:
-    """Nodes and constants, in the order of their first use.
-
-    Attributes
-    ----------
-    nodes, constants : list
-        Objects of the onnx library.
+    """Nodes and constants, objects of the onnx library, in the order of their first use.
 
     Examples
     --------

@@ -34,29 +34,18 @@ KEY_POINTS = ("travel_to_pull_off", "force_at_25", "force_at_50", "force_at_75",
 
 @dataclass(frozen=True, eq=False)
 class Detachments:
-    """Detachments of a sphere from a relaxed power-law solid, a row each, dimensionless.
-
-    Attributes
-    ----------
-    tabor, modulus_ratio, exponent, preload, rate : ndarray, shape (n,)
-        The five groups; preload is a depth [h0], rate a speed [h0/tau0], all positive.
-    pull_off_force, work_to_pull_off : ndarray, shape (n,)
-        [1.5 pi R dg0] and [1.5 pi R dg0 h0], positive.
-    work_known : ndarray of bool, shape (n,)
-        False in rows whose work is a placeholder.
-    key_points : ndarray, shape (n, 6), or None
-        Travel to the pull-off [h0], forces at 25, 50, 75, 87.5 and 100 % of it, compression
-        positive; None where the file has none.
-    """
+    """Detachments of a sphere from a relaxed power-law solid, a row each, dimensionless."""
 
     tabor: Array
     modulus_ratio: Array
     exponent: Array
-    preload: Array
-    rate: Array
-    pull_off_force: Array
-    work_to_pull_off: Array
-    work_known: npt.NDArray[np.bool_]
+    preload: Array  # depth [h0]
+    rate: Array  # speed of the retraction [h0/tau0], positive
+    pull_off_force: Array  # [1.5 pi R dg0]
+    work_to_pull_off: Array  # [1.5 pi R dg0 h0]
+    work_known: npt.NDArray[np.bool_]  # False in rows whose work is a placeholder
+    # Travel to the pull-off [h0], forces at 25, 50, 75, 87.5 and 100 % of it, compression positive,
+    # shape (n, 6); None where the file has none.
     key_points: Array | None = None
 
     def __len__(self) -> int:
@@ -77,12 +66,8 @@ def read_detachments(path: str | os.PathLike[str]) -> Detachments:
     authors of the thesis published. Other columns are left alone. A missing column and a number
     that has no logarithm are refused, by its row.
     """
-    try:
-        from pyarrow import csv, parquet
-    except ImportError:
-        raise ModuleNotFoundError(
-            "tables are read by pyarrow; install it with pip install 'viscotack[campaign]'"
-        ) from None
+    from pyarrow import csv, parquet
+
     read = parquet.read_table if Path(path).suffix == ".parquet" else csv.read_csv
     table = read(os.fspath(path))
     published = "outputAmplification" in table.column_names

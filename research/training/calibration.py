@@ -44,18 +44,11 @@ HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
 
 @dataclass(frozen=True, eq=False)
 class Apart:
-    """How far a surrogate is off on some rows.
-
-    Attributes
-    ----------
-    told : ndarray, shape (n, trust.INPUTS)
-        What a network of their reach is told.
-    error : ndarray, shape (n, 4)
-        Of log10 of force and of work, the largest of the curve in tension over the pull-off force,
-        and of log10 of the travel to zero force; that is nan for starts in tension.
-    """
+    """How far a surrogate is off on some rows, and what a network of their reach is told."""
 
     told: Array
+    # Of log10 of force and of work, the largest of the curve in tension over the pull-off force,
+    # and of log10 of the travel to zero force, nan for starts in tension; shape (n, 4).
     error: Array
 
     def chosen(self, which: Any) -> "Apart":

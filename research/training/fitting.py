@@ -21,18 +21,10 @@ _CORNER = 0.05
 
 @dataclass(frozen=True)
 class Fit:
-    """How a network is fitted.
+    """How a network is fitted: widths of its hidden layers, and steps of the quasi-Newton method.
 
-    Attributes
-    ----------
-    hidden : tuple of int
-        Widths of its hidden layers.
-    steps : int
-        Of the quasi-Newton method.
-    penalty : float
-        On the sum of the squared weights, beside the mean squared error in units of ``scale``.
-    scale : float
-        Error that counts as one.
+    The mean squared error counts in units of `scale`, beside `penalty` times the sum of the squared
+    weights.
     """
 
     hidden: tuple[int, ...] = (40, 40, 40)
@@ -43,35 +35,19 @@ class Fit:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What a network is to learn; arrays, so that it can be sent to a process.
-
-    Attributes
-    ----------
-    inputs : ndarray, shape (n, inputs)
-    target : ndarray, shape (n, outputs)
-    weight : ndarray, shape (n, outputs)
-        Of the squared errors.
-    between : tuple of two ndarrays of shape (n,), or None
-        Limits between which the single target lies, see ``contact.between``; None for outputs that
-        are the target.
-    before : ndarray, shape (n, outputs), or None
-        What networks fitted before say; this one learns what to add to it.
-    gain : float
-        What the output is multiplied by before it is added.
-    quantile : float or None
-        The part of the targets that is to lie below the output, in place of squared errors.
-    factors : ndarray, shape (n, outputs of the network), or None
-        The single output is the mean of those of the network times these; None for outputs that
-        are told apart.
-    """
+    """What a network is to learn, a row each; arrays, so that it can be sent to a process."""
 
     inputs: Array
     target: Array
-    weight: Array
+    weight: Array  # of the squared errors
+    # Limits between which the single target lies, see ``contact.between``.
     between: tuple[Array, Array] | None = None
+    # What networks fitted before say; the output is multiplied by the gain and added to it.
     before: Array | None = None
     gain: float = 1.0
+    # The part of the targets that is to lie below the output, in place of squared errors.
     quantile: float | None = None
+    # The single output is the mean of those of the network times these, shape (n, outputs).
     factors: Array | None = None
 
 
@@ -155,12 +131,8 @@ def _first(sizes: tuple[int, ...], seed: int) -> Array:
 def _jax() -> Any:
     # One thread: sums in one order, and one process a network. XLA reads it when it is imported.
     os.environ.setdefault("NPROC", "1")
-    try:
-        import jax
-    except ImportError:
-        raise ModuleNotFoundError(
-            "training needs JAX; install it with pip install -e '.[research]'"
-        ) from None
+    import jax
+
     jax.config.update("jax_enable_x64", True)
     jax.config.update("jax_platforms", "cpu")
     return jax

@@ -66,17 +66,10 @@ HOW = Fit(hidden=(32, 32), steps=1200, scale=0.3, penalty=1e-7)
 
 @dataclass(frozen=True, eq=False)
 class Sought:
-    """What a slow search found.
-
-    Attributes
-    ----------
-    like : Alike
-    said : ndarray, shape (n, 6)
-        What a network should have said: the three numbers that were sought, and the bell.
-    """
+    """What a slow search found, and what a network should have said."""
 
     like: Alike
-    said: Array
+    said: Array  # the three numbers that were sought, and the bell, shape (n, 6)
 
 
 def first(tests: Tests, creep: Array) -> Alike:

@@ -25,14 +25,7 @@ _LEAST_SPREAD = 0.03
 
 @dataclass(frozen=True, eq=False)
 class Scaled:
-    """A task whose targets are of order one, and what they stand for.
-
-    Attributes
-    ----------
-    task : Task
-    centre, spread : ndarray, shape (outputs,)
-        As :class:`..network.Networks` have them.
-    """
+    """A task whose targets are of order one, and centre and spread as ``Networks`` have them."""
 
     task: Task
     centre: Array
@@ -55,14 +48,9 @@ def scaled_task(inputs: Array, target: Array, known: Array | None = None) -> Sca
 
 @dataclass(frozen=True)
 class Stage:
-    """Networks that learn what is left over.
+    """Networks that learn what is left over, whose outputs are added times a gain.
 
-    Attributes
-    ----------
-    fit : Fit
-        Their size and steps; its scale is about the size of the errors that are left.
-    gain : float
-        What their outputs are multiplied by before they are added.
+    The scale of the fit is about the size of the errors that are left.
     """
 
     fit: Fit

@@ -24,37 +24,20 @@ MOST_ERRORS = (3e-3, 1e-2)
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Simulated detachments, a row each.
+    """Simulated detachments, a row each."""
 
-    Attributes
-    ----------
-    groups : ndarray, shape (n, 5)
-        Inputs, in the order of ``physics.INPUTS``.
-    force, work : ndarray, shape (n,)
-        Pull-off force and work to it.
-    start_force, start_radius : ndarray, shape (n,)
-        Of the relaxed start.
-    line, known : ndarray, shape (n, line.OUTPUTS)
-        What a network should say of the curve; 1.0 where the row has it, 0.0 where not.
-    give : ndarray, shape (n,)
-        Travel to zero force times radius over force of the start; 1.0 where that is in tension.
-    trajectory_force, trajectory_left : ndarray, shape (n, 24)
-        As in the dataset, to judge by.
-    origin : ndarray of int, shape (n,)
-        Which set the row is of.
-    """
-
-    groups: Array
+    groups: Array  # inputs in the order of ``physics.INPUTS``
     force: Array
     work: Array
-    start_force: Array
+    start_force: Array  # of the relaxed start
     start_radius: Array
-    line: Array
-    known: Array
+    line: Array  # what a network should say of the curve, shape (n, line.OUTPUTS)
+    known: Array  # 1.0 where the row has it, 0.0 where not
+    # Travel to zero force times radius over force of the start; 1.0 where that is in tension.
     give: Array
-    trajectory_force: Array
+    trajectory_force: Array  # as in the dataset, to judge by, shape (n, 24)
     trajectory_left: Array
-    origin: npt.NDArray[np.intp]
+    origin: npt.NDArray[np.intp]  # which set the row is of
 
     def __len__(self) -> int:
         return len(self.force)

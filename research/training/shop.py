@@ -20,14 +20,9 @@ from .fitting import Fit, Task, fit
 
 @dataclass
 class Shop:
-    """Processes that fit networks; a fit that the folder holds already is read from it.
+    """Processes that fit networks, which do not depend on how many `workers` there are.
 
-    Parameters
-    ----------
-    folder : Path
-        Where fitted networks are kept, one file each; a run that was stopped goes on from there.
-    workers : int
-        Processes. The networks do not depend on it.
+    The folder keeps fitted networks, one file each; a run that was stopped goes on from there.
     """
 
     folder: Path

@@ -58,25 +58,14 @@ WORK = Fit(hidden=(48, 48), steps=300, scale=8e-3, penalty=1e-3)
 
 @dataclass(frozen=True, eq=False)
 class Tests:
-    """Simulated tests on solids, a row each.
-
-    Attributes
-    ----------
-    tabor, modulus_ratio, preload : ndarray, shape (n,)
-    creep : ndarray, shape (n, 15)
-        At ``TIMES`` in units of h0 over the speed.
-    rows : Rows
-        What came out; its groups are nothing yet.
-    number : ndarray, shape (n,)
-        Of the solid; -1 of a power law.
-    """
+    """Simulated tests on solids, a row each."""
 
     tabor: Array
     modulus_ratio: Array
     preload: Array
-    creep: Array
-    rows: Rows
-    number: Array
+    creep: Array  # at ``TIMES`` in units of h0 over the speed, shape (n, 15)
+    rows: Rows  # what came out; its groups are nothing yet
+    number: Array  # of the solid; -1 of a power law
 
     def __len__(self) -> int:
         return len(self.tabor)

@@ -48,20 +48,12 @@ def folds(split: Split) -> Iterator[tuple[Split, Split]]:
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """What came of a model over the folds of a split.
-
-    Attributes
-    ----------
-    mse, r2, sizes : ndarray, shape (folds,)
-        Mean square error, R2 about the mean of a fold's own rows, and trainable parameters.
-    predicted, true : ndarray, shape (n,)
-        The target of every row, from the model that had not seen it, and what it should be.
-    """
+    """What came of a model over the folds of a split."""
 
     mse: Array
-    r2: Array
-    sizes: Array
-    predicted: Array
+    r2: Array  # about the mean of a fold's own rows
+    sizes: Array  # trainable parameters
+    predicted: Array  # the target of every row, from the model that had not seen it
     true: Array
 
     @property
