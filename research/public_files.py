@@ -54,12 +54,17 @@ MEGA = 1e6
 class Recipe:
     """How to parse the files whose path fits, without the readers; `factors` take them to SI."""
 
-    fits: str
+    fits: tuple[str, ...]
     test: str
     parse: Callable[[Path], list[pd.DataFrame]]
     factors: tuple[float, ...] = (1.0, 1.0, 1.0)
     kind: str = "G"
     celsius: Callable[[Path], list[pd.DataFrame]] | None = None
+
+
+def recipe_of(name, recipes):
+    """Return the first recipe that fits a path, or None."""
+    return next((r for r in recipes if any(fnmatch(name, word) for word in r.fits)), None)
 
 
 # ---- independent parses ------------------------------------------------------------------------
@@ -239,88 +244,70 @@ def rheowin(path):
 
 
 HERTZ = 2 * np.pi
-SWEEP = ("dma", (1.0, 1.0, 1.0))
 OMEGA = "Frequency|Angular Frequency"
 MODULI = ("Storage Modulus", "Loss Modulus")
 ARES = ("Angular frequency", "Storage modulus", "Loss modulus")
 NEWER = (
-    Recipe("Thin-Rheology/*attempt FREQ4*.csv", "dma", columns(OMEGA, *MODULI)),
-    Recipe("Thin-Rheology/*freq*.csv", "dma", columns(OMEGA, *MODULI)),
-    Recipe("Thin-Rheology/*attempt 2.csv", "dma", columns(OMEGA, *MODULI)),
-    Recipe("Thin-Rheology/*attempt2.csv", "dma", columns(OMEGA, *MODULI)),
-    Recipe("Thin-Rheology/*01-08-2021_air_creep*", "creep",
+    Recipe(("Thin-Rheology/*attempt FREQ4*.csv", "Thin-Rheology/*freq*.csv",
+            "Thin-Rheology/*attempt 2.csv", "Thin-Rheology/*attempt2.csv",
+            "Thin-Rheology/*CC_DG_expts*"), "dma", columns(OMEGA, *MODULI)),
+    Recipe(("Thin-Rheology/*01-08-2021_air_creep*", "Thin-Rheology/*creep tests*"), "creep",
            columns("Time", "Creep Compliance")),
-    Recipe("Thin-Rheology/*CC_DG_expts*", "dma", columns(OMEGA, *MODULI)),
-    Recipe("Thin-Rheology/*creep tests*", "creep", columns("Time", "Creep Compliance")),
-    Recipe("rheology-data-toolkit/*Stress Relaxation 1.csv", "relaxation",
+    Recipe(("rheology-data-toolkit/*Stress Relaxation 1.csv",), "relaxation",
            columns("Time", "Relaxation Modulus")),
-    Recipe("rheology-data-toolkit/*ARES_G2*", "dma", columns(*ARES),
+    Recipe(("rheology-data-toolkit/*ARES_G2*",), "dma", columns(*ARES),
            celsius=columns(*ARES, "Temperature")),
-    Recipe("RheometerPlots/*viscoelastic-recovery*", "dma", rheowin, celsius=rheowin),
-    Recipe("RheometerPlots/*frequency*sweep*", "dma", rheowin, celsius=rheowin),
-    Recipe("dma-prony-validation/*tf_015p.csv", "dma",
+    Recipe(("RheometerPlots/*viscoelastic-recovery*", "RheometerPlots/*frequency*sweep*"), "dma",
+           rheowin, celsius=rheowin),
+    Recipe(("dma-prony-validation/*tf_015p.csv",), "dma",
            columns("freq_hz", "G_storage_pa", "G_loss_pa"), (HERTZ, 1, 1),
            celsius=columns("freq_hz", "G_storage_pa", "G_loss_pa", "temperature_C")),
-    Recipe("perssonmodelling/*measured_dma.txt", "dma",
+    Recipe(("perssonmodelling/*measured_dma.txt",), "dma",
            columns("Frequency", "E' Storage Modulus", "E'' Loss Modulus"), kind="E"),
-    Recipe("MATLAB-DMA2Prony/*.xlsx", "dma",
+    Recipe(("MATLAB-DMA2Prony/*.xlsx",), "dma",
            columns("Frequency", "Storage Modulus", "Loss Modulus"),
            celsius=columns("Frequency", "Storage Modulus", "Loss Modulus", "Temperature")),
 )  # fmt: skip
 RECIPES = (
     *NEWER,
-    Recipe("*freq_user_master.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
-    Recipe("*freq_user_raw.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
-    Recipe("*/freq_user_master.csv", "dma", below("f, ", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
-    Recipe("*time_user_master.csv", "relaxation", below("t,", ",", (0, 1)), (1, MEGA)),
-    Recipe("*time_user_raw.csv", "relaxation", below("t,", ",", (0, 1)), (1, MEGA)),
-    Recipe("*__shift_factors.csv", "shifts", below("T,", ",", (0, 1))),
-    Recipe("*freq_Eplexor*.xls", "dma", excel("Exported Data", ("f", "E'|G'", "E''|G''")),
+    Recipe(("*freq_user_master.csv", "*freq_user_raw.csv"), "dma", below("f,", ",", (0, 1, 2)),
            (HERTZ, MEGA, MEGA)),
-    Recipe("*PI_634.5k_T-35.xlsx", "dma",
+    Recipe(("*time_user_master.csv", "*time_user_raw.csv"), "relaxation", below("t,", ",", (0, 1)),
+           (1, MEGA)),
+    Recipe(("*__shift_factors.csv",), "shifts", below("T,", ",", (0, 1))),
+    Recipe(("*freq_Eplexor*.xls",), "dma", excel("Exported Data", ("f", "E'|G'", "E''|G''")),
+           (HERTZ, MEGA, MEGA)),
+    Recipe(("*PI_634.5k_T-35.xlsx",), "dma",
            excel(0, ("w (rad/s)", "G'(Pa)", "G''(Pa)"), skip=(0,))),
-    Recipe("*creep_recovery.xlsx", "creep", lambda path: creep_sheet(path)),
-    Recipe("*.osc", "dma", from_second),
-    Recipe("*PI_94.9k_T-35_TH_h.tts", "dma", either),
-    Recipe("*.tts", "dma", from_second),
-    Recipe("*.gt", "relaxation", step_of("gamma")),
-    Recipe("*.creep", "creep", step_of("stress")),
-    Recipe("*frequency_sweep_tts.txt", "dma",
-           trios("", ("Angular frequency", "Storage modulus", "Loss modulus")), (1, MEGA, MEGA)),
-    Recipe("*multi_technique.txt", "dma",
-           trios("Frequency sweep", ("Angular frequency", "Storage modulus", "Loss modulus")),
-           (1, MEGA, MEGA)),
-    Recipe("*creep_experiment.txt", "creep", trios("Creep", ("Step time", "Compliance")),
+    Recipe(("*creep_recovery.xlsx",), "creep", lambda path: creep_sheet(path)),
+    Recipe(("*PI_94.9k_T-35_TH_h.tts",), "dma", either),
+    Recipe(("*.osc", "*.tts"), "dma", from_second),
+    Recipe(("*.gt",), "relaxation", step_of("gamma")),
+    Recipe(("*.creep",), "creep", step_of("stress")),
+    Recipe(("*frequency_sweep_tts.txt",), "dma", trios("", ARES), (1, MEGA, MEGA)),
+    Recipe(("*multi_technique.txt",), "dma", trios("Frequency sweep", ARES), (1, MEGA, MEGA)),
+    Recipe(("*creep_experiment.txt",), "creep", trios("Creep", ("Step time", "Compliance")),
            (60, 1 / MEGA)),
-    Recipe("*trios/frequency_sweep.csv", "dma", below("rad/s", "\t", (1, 2, 3))),
-    Recipe("*trios/relaxation.json", "relaxation", json_lists),
-    Recipe("*trios_synthetic_*mb.txt", "relaxation", lambda path: quotient(path)),
-    Recipe("*rheocompass/creep_test.csv", "creep", below("[s]", "\t", (0, 3))),
-    Recipe("*rheocompass/relaxation_test.csv", "relaxation", below("[s]", "\t", (0, 3))),
-    Recipe("*rheocompass/frequency_sweep.csv", "dma", below("[rad/s]", "\t", (0, 1, 2))),
-    Recipe("*rheocompass/multi_interval.csv", "dma", below("[rad/s]", "\t", (0, 1, 2))),
-    Recipe("*HC1_stressrelaxation*.csv", "relaxation",
+    Recipe(("*trios/frequency_sweep.csv",), "dma", below("rad/s", "\t", (1, 2, 3))),
+    Recipe(("*trios/relaxation.json",), "relaxation", json_lists),
+    Recipe(("*trios_synthetic_*mb.txt",), "relaxation", lambda path: quotient(path)),
+    Recipe(("*rheocompass/creep_test.csv",), "creep", below("[s]", "\t", (0, 3))),
+    Recipe(("*rheocompass/relaxation_test.csv",), "relaxation", below("[s]", "\t", (0, 3))),
+    Recipe(("*rheocompass/frequency_sweep.csv", "*rheocompass/multi_interval.csv"), "dma",
+           below("[rad/s]", "\t", (0, 1, 2))),
+    Recipe(("*HC1_stressrelaxation*.csv",), "relaxation",
            below("[s]", "\t", (1, 4, 2), decimal=",")),
-    Recipe("*ttw_[0-9][0-9].csv", "dma", side_by_side),
-    Recipe("*/stressrelaxation_*.csv", "relaxation", either),
-    Recipe("*polypropylene_relaxation.csv", "relaxation", either),
-    Recipe("*master_curve_ps_relaxation_data.csv", "relaxation", either),
-    Recipe("*rel_lapo_*.csv", "relaxation", either),
-    Recipe("*relaxation_hb_calibrated.csv", "relaxation", either),
-    Recipe("*epm_relaxation_synthetic.csv", "relaxation", either),
-    Recipe("*relaxation_modulus.csv", "relaxation", either),
-    Recipe("*space_delimited.txt", "relaxation", either),
-    Recipe("*tab_delimited.txt", "relaxation", either),
-    Recipe("*relaxation_sample.csv", "relaxation", either),
-    Recipe("*/creep_ps*.csv", "creep", either),
-    Recipe("*polystyrene_creep.csv", "creep", either),
-    Recipe("*creep_perihepatic_data.csv", "creep", either),
-    Recipe("*creep_mucus_data.csv", "creep", either),
-    Recipe("*creep_compliance.csv", "creep", either),
-    *(Recipe(fits, *SWEEP[:1], either) for fits in (
-        "*/oscillation_*.csv", "*/ttw_*_*.csv", "*/foam_dma_*.csv", "*/cnf_0-3*.csv", "*/PI_*.csv",
-        "*master_curve_ps_oscillation_data.csv", "*ps_saos_mc_data.csv", "*/epstein.csv",
-        "*bayesian_owchirp_tts.csv")),
+    Recipe(("*ttw_[0-9][0-9].csv",), "dma", side_by_side),
+    Recipe(("*/stressrelaxation_*.csv", "*polypropylene_relaxation.csv",
+            "*master_curve_ps_relaxation_data.csv", "*rel_lapo_*.csv",
+            "*relaxation_hb_calibrated.csv", "*epm_relaxation_synthetic.csv",
+            "*relaxation_modulus.csv", "*space_delimited.txt", "*tab_delimited.txt",
+            "*relaxation_sample.csv"), "relaxation", either),
+    Recipe(("*/creep_ps*.csv", "*polystyrene_creep.csv", "*creep_perihepatic_data.csv",
+            "*creep_mucus_data.csv", "*creep_compliance.csv"), "creep", either),
+    Recipe(("*/oscillation_*.csv", "*/ttw_*_*.csv", "*/foam_dma_*.csv", "*/cnf_0-3*.csv",
+            "*/PI_*.csv", "*master_curve_ps_oscillation_data.csv", "*ps_saos_mc_data.csv",
+            "*/epstein.csv", "*bayesian_owchirp_tts.csv"), "dma", either),
 )  # fmt: skip
 
 # what is refused, whatever is given: path, words of the refusal, and why that is right
@@ -342,8 +329,8 @@ def creep_sheet(path):
 
 def celsius(path, name):
     """Return the temperatures that a file states [C], or None where it states none."""
-    recipe = next((r for r in RECIPES if fnmatch(name, r.fits)), None)
-    if recipe is not None and recipe in NEWER:
+    recipe = recipe_of(name, NEWER)
+    if recipe is not None:
         tables = recipe.celsius(path) if recipe.celsius else []
         return pd.concat(tables).iloc[:, -1].to_numpy(dtype=float) if tables else None
     if fnmatch(name, "*freq_user_raw.csv"):
@@ -448,7 +435,7 @@ GIVEN = {
 
 def outcome(path, name):
     """Return the outcome and the words for one file."""
-    recipe = next((r for r in RECIPES if fnmatch(name, r.fits)), None)
+    recipe = recipe_of(name, RECIPES)
     refusal = next((r for r in REFUSED if fnmatch(name, r[0])), None)
     refusal = None if recipe in NEWER else refusal
     # a shift table is no test, and has a reader of its own
