@@ -170,6 +170,19 @@ def trios(step, names):
     return parse
 
 
+def quotient(path):
+    """Return time and stress over strain of the invented exports of RheoJAX."""
+    (table,) = below("Time(s)", "\t", (0, 1, 2))(path)
+    return [pd.DataFrame({0: table[0], 1: table[1] / table[2]})]
+
+
+def creep_sheet(path):
+    raw = pd.read_excel(path, sheet_name=0, header=None)
+    at = next(i for i, row in raw.iterrows() if {"Time", "Compliance"} <= set(row))
+    head, rows = list(raw.loc[at]), raw.loc[at + 2 :]
+    return [rows[[head.index("Time"), head.index("Compliance")]].dropna().astype(float)]
+
+
 def side_by_side(path):
     """Return the pairs of columns of a wide table, each with the first column."""
     table = pd.read_csv(path, skiprows=2, header=None, encoding="utf-8-sig")
@@ -279,7 +292,7 @@ RECIPES = (
            (HERTZ, MEGA, MEGA)),
     Recipe(("*PI_634.5k_T-35.xlsx",), "dma",
            excel(0, ("w (rad/s)", "G'(Pa)", "G''(Pa)"), skip=(0,))),
-    Recipe(("*creep_recovery.xlsx",), "creep", lambda path: creep_sheet(path)),
+    Recipe(("*creep_recovery.xlsx",), "creep", creep_sheet),
     Recipe(("*PI_94.9k_T-35_TH_h.tts",), "dma", either),
     Recipe(("*.osc", "*.tts"), "dma", from_second),
     Recipe(("*.gt",), "relaxation", step_of("gamma")),
@@ -290,7 +303,7 @@ RECIPES = (
            (60, 1 / MEGA)),
     Recipe(("*trios/frequency_sweep.csv",), "dma", below("rad/s", "\t", (1, 2, 3))),
     Recipe(("*trios/relaxation.json",), "relaxation", json_lists),
-    Recipe(("*trios_synthetic_*mb.txt",), "relaxation", lambda path: quotient(path)),
+    Recipe(("*trios_synthetic_*mb.txt",), "relaxation", quotient),
     Recipe(("*rheocompass/creep_test.csv",), "creep", below("[s]", "\t", (0, 3))),
     Recipe(("*rheocompass/relaxation_test.csv",), "relaxation", below("[s]", "\t", (0, 3))),
     Recipe(("*rheocompass/frequency_sweep.csv", "*rheocompass/multi_interval.csv"), "dma",
@@ -312,19 +325,6 @@ RECIPES = (
 
 # what is refused, whatever is given: path, words of the refusal, and why that is right
 REFUSED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))["refused"]
-
-
-def quotient(path):
-    """Return time and stress over strain of the invented exports of RheoJAX."""
-    (table,) = below("Time(s)", "\t", (0, 1, 2))(path)
-    return [pd.DataFrame({0: table[0], 1: table[1] / table[2]})]
-
-
-def creep_sheet(path):
-    raw = pd.read_excel(path, sheet_name=0, header=None)
-    at = next(i for i, row in raw.iterrows() if {"Time", "Compliance"} <= set(row))
-    head, rows = list(raw.loc[at]), raw.loc[at + 2 :]
-    return [rows[[head.index("Time"), head.index("Compliance")]].dropna().astype(float)]
 
 
 def celsius(path, name):

@@ -94,9 +94,9 @@ class Work(NamedTuple):
 def detached(work: Work) -> dict[str, float]:
     """Return what a simulation says of a detachment; nan where it says nothing.
 
-    ``force``, ``work``, ``depth``, ``radius``, ``speed`` (of the edge), for a punch ``energy`` and
-    ``ligament`` in the units of :mod:`viscotack.result`; ``separation`` where it is run so far;
-    relative errors of force and work, and the energy residual.
+    ``force``, ``work``, ``speed`` (of the edge), for a punch ``ligament`` in the units of
+    :mod:`viscotack.result`; ``separation`` where it is run so far; relative errors of force and
+    work.
     """
     result = vt.solve(
         work.case,
@@ -111,14 +111,10 @@ def detached(work: Work) -> dict[str, float]:
         "force_error": float(error.get("force", np.nan)),
         "work": _or_nan(vt.work_to_pull_off, result),
         "work_error": float(error.get("work", np.nan)),
-        "depth": _or_nan(vt.depth_at_pull_off, result),
         "speed": _or_nan(vt.crack_speed_at_pull_off, result),
-        "residual": float(result.energy_residual or 0.0),
     }
     if result.groups.in_plane_strain:
         found["ligament"] = _or_nan(vt.ligament_at_pull_off, result)
-    else:
-        found["radius"] = _or_nan(vt.contact_radius_at_pull_off, result)
     if work.until == "detached":
         found["separation"] = _or_nan(vt.work_of_separation, result)
     return found

@@ -291,7 +291,6 @@ def draw_linear_curve(numbers: Numbers, figure: Figure) -> None:
     ax.legend(fontsize=8)
 
 
-_CASE = {"radius": LENS, "contact_modulus": PDMS.contact_modulus, "work_of_adhesion": PDMS_WORK}
 _LENGTH = (np.pi * LENS**2 * PDMS_WORK / PDMS.contact_modulus) ** (1 / 3)
 _HEIGHT = _LENGTH**2 / LENS
 WIDE_SPEEDS = np.geomspace(1e-7, 1e-1, 49)
@@ -307,7 +306,7 @@ def pull_off(speed: float, preload: float) -> float:
               \frac{da}{d\delta} = \frac{v_0}{r} (G - 1)^{1/\xi}, \quad
               P = \frac43 \left(a \delta - \frac{a^3}{3}\right)
     """
-    at = float(jkr.contact_radius_at_force(preload, **_CASE)) / _LENGTH
+    at = float(jkr.contact_radius_at_force(preload, **_ELASTIC)) / _LENGTH
     start = at**2 - np.sqrt(2 * at)
     # the edge moves by one length in the time in which the drive moves by one height
     ratio = V0 / speed * _HEIGHT / _LENGTH
@@ -320,16 +319,8 @@ def pull_off(speed: float, preload: float) -> float:
         return float(a[0] - 0.02 * at)
 
     gone.terminal = True  # type: ignore[attr-defined]
-    path = solve_ivp(
-        slope,
-        (0.0, 500.0 * at),
-        [at],
-        method="LSODA",
-        rtol=1e-8,
-        atol=1e-10,
-        events=gone,
-        max_step=at / 40,
-    )
+    options = {"method": "LSODA", "rtol": 1e-8, "atol": 1e-10, "max_step": at / 40}
+    path = solve_ivp(slope, (0.0, 500.0 * at), [at], events=gone, **options)
     a, depth = path.y[0], start - path.t
     return float(np.max(-4 / 3 * (a * depth - a**3 / 3)))
 
