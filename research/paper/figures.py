@@ -1,6 +1,9 @@
 """Figures of the manuscript, from its numbers."""
 
+from pathlib import Path
+
 import matplotlib as mpl
+import matplotlib.style
 import matplotlib.ticker
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,16 +16,6 @@ from . import closed_forms
 from .numbers import coefficient, crack, factors, kept
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
-STYLE = {
-    "font.size": 8,
-    "axes.labelsize": 8,
-    "legend.fontsize": 7,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "legend.frameon": False,
-    "lines.linewidth": 1.2,
-    "savefig.dpi": 160,
-}
 SPEEDS = 10.0 ** np.arange(-3, 5.01, 0.1)
 # Speeds of the zones that are drawn, rates and Tabor numbers of contacts.
 ZONES = (0.0, 1.0, 100.0)
@@ -219,5 +212,5 @@ def write(folder):
     """Write all figures into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     for draw in FIGURES:
-        with mpl.rc_context(STYLE):
+        with mpl.style.context(Path(__file__).with_name("paper.mplstyle")):
             draw().savefig(folder / f"{draw.__name__}.png")

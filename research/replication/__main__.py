@@ -55,7 +55,7 @@ def figure(given: Given) -> None:
     with _bench(given) as bench:
         drawn = figure_named(name)
         before = kept(name) if path_of(name).exists() else None
-        path = picture(name, bench.of(name), given.out, ending="svg" if given.svg else "png")
+        path = picture(name, bench.of(name), given.out)
         print(drawn.words())
     if given.afresh and before is not None:
         print(f"  Beside the numbers that were kept: {_beside(bench, name, before)}")
@@ -164,7 +164,6 @@ def _parser() -> argparse.ArgumentParser:
             room.add_argument("name", help="4.6, table-5.1, A.3; of a claim as the ledger has it")
         if run is figure:
             room.add_argument("--keep", action="store_true", help="keep what is made afresh")
-            room.add_argument("--svg", action="store_true", help="SVG instead of PNG")
         if run is ledger:
             room.add_argument("--write", action="store_true", help="write it and its summary")
     return parser

@@ -88,10 +88,8 @@ def _timed(function: Callable[[Any], Any], item: Any) -> tuple[Any, float]:
     return answer, process_time() - began
 
 
-def picture(
-    name: str, numbers: Numbers, folder: Path, *, ending: str = "png", dpi: int = 150
-) -> Path:
+def picture(name: str, numbers: Numbers, folder: Path, *, dpi: int = 150) -> Path:
     """Draw a figure into a folder and return the file."""
     figure = named(name)
-    path = folder / f"{name.replace('.', '_')}.{ending}"
+    path = folder / f"{name.replace('.', '_')}.png"
     return saved(figure.draw, numbers, path, size=figure.size, note=figure.note, dpi=dpi)

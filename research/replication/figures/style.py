@@ -23,6 +23,7 @@ RATE = r"retraction rate $r\,\tau_0/h_0$"
 WORK = r"work to pull-off / $\frac{3}{2}\pi R\,\Delta\gamma_0 h_0$"
 DEPTH = r"depth / $h_0$"
 TIP_SPEED = r"crack speed $v\,\tau_0/l_0$"
+_SMALL = Path(__file__).with_name("small.mplstyle")
 
 
 def colour(exponent: float) -> str:
@@ -66,14 +67,14 @@ def saved(
     note: str = "",
     dpi: int = 150,
 ) -> Path:
-    """Draw numbers into a file, PNG or SVG by its ending, with a note below the picture."""
+    """Draw numbers into a file, with a note below the picture."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with matplotlib.style.context("viscotack.plot.viscotack"), matplotlib.style.context(_SMALL):
+    with matplotlib.style.context(["viscotack.plot.viscotack", _SMALL]):
         figure = Figure(figsize=size)
         draw(numbers, figure)
         if note:
             figure.supxlabel(note, fontsize=8.5, x=0.01, ha="left", color="0.35")
-        figure.savefig(path, dpi=dpi, metadata={"Date": None} if path.suffix == ".svg" else {})
+        figure.savefig(path, dpi=dpi)
     return path
 
 
@@ -91,21 +92,3 @@ def drawn_table(columns: list[str], rows: list[list[str]], figure: Figure) -> No
         cell.visible_edges = "B" if row else "BT"
         if row == 0:
             cell.get_text().set_fontweight("bold")
-
-
-# Several panels beside each other want smaller words than a picture alone.
-_SMALL: Any = {
-    "font.size": 10,
-    "axes.labelsize": 10.5,
-    "axes.titlesize": 10.5,
-    "xtick.labelsize": 9.5,
-    "ytick.labelsize": 9.5,
-    "legend.fontsize": 8.5,
-    "lines.linewidth": 1.5,
-    "lines.markersize": 5,
-    "lines.markeredgewidth": 1.1,
-    "axes.linewidth": 0.9,
-    "xtick.major.size": 4,
-    "ytick.major.size": 4,
-    "svg.hashsalt": "viscotack",
-}
