@@ -1,5 +1,6 @@
 """The ledger of claims, and its summary, docs/replication.md, from what is measured."""
 
+import tomllib
 from collections import Counter
 from pathlib import Path
 from textwrap import fill
@@ -10,6 +11,7 @@ from ..kept import Numbers
 from .claim import Claim, Measured, Of, Standing, Verdict, chapters
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "replication.md"
+_WORDS = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 _HEAD = (
     "| claim | what the thesis says | thesis | here | apart | verdict | evidence | remeasured by "
     "|\n|---|---|---|---|---|---|---|---|"
@@ -23,7 +25,7 @@ def page(of: Of) -> str:
         f"# The thesis, claim by claim\n\n{_opening(judged)}",
         _differences(judged),
         f"## What the linear curve of Figure 4.10 is\n\n{fill(_linear_curve(of), 108)}",
-        _BOUND,
+        _WORDS["bound"],
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -31,7 +33,11 @@ def page(of: Of) -> str:
 def ledger(of: Of) -> str:
     """Return every claim with its number, from numbers of figures that are kept or made afresh."""
     judged = _judged(of)
-    parts = [f"# Ledger of claims\n\n{fill(_READING, 108)}", _derived_twice(of), _explanations(of)]
+    parts = [
+        f"# Ledger of claims\n\n{fill(_WORDS['reading'], 108)}",
+        _derived_twice(of),
+        _explanations(of),
+    ]
     for chapter, claims in chapters().items():
         rows = "\n".join(claim.row(*judged[claim]) for claim in claims)
         parts.append(f"## {chapter}\n\n{_HEAD}\n{rows}")
@@ -52,9 +58,10 @@ def _opening(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
     text = (
         "Which claims of A. Maghami, PhD thesis (2025), hold? "
         f"{len(thesis)} were measured with this package: "
-        f"{said}. {len(own)} more were found here. How firmly they stand: {counted}. {_STANDINGS}"
+        f"{said}. {len(own)} more were found here. How firmly they stand: {counted}. "
+        f"{_WORDS['standings']}"
     )
-    return "\n\n".join(fill(x, 108) for x in (text, _REMADE))
+    return "\n\n".join(fill(x, 108) for x in (text, _WORDS["remade"]))
 
 
 def _differences(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
@@ -74,23 +81,6 @@ _PLURAL = {
     Verdict.FAILS: "do not hold",
     Verdict.OPEN: "cannot be decided",
 }
-_STANDINGS = (
-    "Proven needs neither a simulation nor a trained model; consistent agrees with them within the "
-    "band of its verdict."
-)
-_REMADE = (
-    "`python -m research.replication ledger --write` measures all claims from the kept numbers of "
-    "the figures, and writes this page and the whole ledger, `out/replication/ledger.md`; "
-    "`claim NAME` in place of `ledger` measures one, with `--afresh` from nothing. A verdict "
-    "stands on a number: where that leaves its band, the command refuses to write. Most "
-    "corrections are of printed factors, signs and units. The figures are in a "
-    "[gallery](../research/replication/gallery/README.md); the authors' rows are judged "
-    "[one by one](../research/replication/published/README.md)."
-)
-_READING = (
-    "Units: P̂ is P/(πRΔγ0) as in chapter 4; rates are rτ0/h0; k P/P_JKR is k times the force in "
-    "units of 1.5 πRΔγ0. Errors of simulations are the solver's own estimates."
-)
 
 
 def _derived_twice(of: Of) -> str:
@@ -170,27 +160,3 @@ def _linear_curve(of: Of) -> str:
         f"{n['explanation'][best]} ({100 * n['least'][best]:+.1f} to "
         f"{100 * n['most'][best]:+.1f} %), which the thesis does not have."
     )
-
-
-_BOUND = """\
-## A bound on the work that holds at all rates
-
-Eq. 43 is an estimate of the fast end, and the work exceeds it 2.4 times between the ends. For
-forces of short range there is a bound at every rate and for every linear spectrum. In the units
-of Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
-
-1. Inside a contact that only recedes from rest the opening has always been zero. Its pressure is
-   that of the relaxed solid at a hereditary depth D = δ0 − r ∫ψ dt, where ψ falls from 1/k to 1
-   ([the steady crack](steady_crack.md)). As ψ ≥ 1, the drive moves no farther than D.
-2. The edge takes G = (a² − D)²/2a = Γ(v) with 1 ≤ Γ ≤ 1/k. At a given D no radius exceeds that of
-   Γ = 1/k, and the force P = 2aD − (2/3)a³ falls with the radius, dP/da = 2(D − a²) < 0: the
-   tension is at most that of JKR with the energy Δγ0/k at the same D.
-3. That JKR curve is in tension from its zero of the force to its least depth, beyond which there
-   is no equilibrium. The work to pull-off, from zero force on, is at most that of this whole
-   curve:
-
-       W ≤ 1.156939 μ π^(2/3) k^(−5/3)    [1.5 πRΔγ0 h0]
-
-The bound is not sharp, because a relaxed bulk and a fast crack do not go together. Forces of long
-range, which pull outside the contact, are not covered.
-"""
