@@ -46,42 +46,13 @@ def notes() -> str:
 def recipe(sdist: str, sha256: str) -> str:
     """Recipe for conda-forge (rattler-build); its source is the sdist of the release folder."""
     told = project()
-    run = "".join(f"    - {_conda(library)}\n" for library in told["dependencies"])
-    return f"""\
-# Written by `make release`. Replace `path` by the `url` of the published sdist.
-schema_version: 1
-context:
-  version: "{told["version"]}"
-package:
-  name: {told["name"]}
-  version: ${{{{ version }}}}
-source:
-  path: {sdist}
-  sha256: {sha256}
-build:
-  number: 0
-  noarch: python
-  script: python -m pip install . -vv --no-deps --no-build-isolation
-  python:
-    entry_points:
-      - viscotack = viscotack.app.cli:main
-requirements:
-  host:
-    - python {told["requires-python"].removeprefix(">=")}.*
-    - pip
-    - setuptools >=77
-  run:
-    - python {told["requires-python"]}
-{run}tests:
-  - python:
-      imports: [viscotack]
-      pip_check: true
-  - script: [viscotack --version]
-about:
-  summary: {told["description"]}
-  license: {told["license"]}
-  license_file: LICENSE
-"""
+    return (Path(__file__).with_name("recipe.yaml").read_text("utf-8")).format(
+        sdist=sdist,
+        sha256=sha256,
+        run="".join(f"    - {_conda(library)}\n" for library in told["dependencies"]),
+        least=told["requires-python"].removeprefix(">="),
+        **told,
+    )
 
 
 def _conda(requirement: str) -> str:
