@@ -144,12 +144,15 @@ def factors(cut=1.0):
     }
 
 
+def table(head, rows):
+    """Return a table in Markdown from its head and rows, whose cells are apart by `|`."""
+    lines = [f"| {head} |", "|---" * (head.count("|") + 1) + "|", *(f"| {row} |" for row in rows)]
+    return "\n".join(lines) + "\n"
+
+
 def measured():
-    """Return the rows of the measured series beside its predictions."""
-    lines = [
-        "| silicone, speed | force | measured | matched spectra | published spectrum | no loss |",
-        "|---" * 6 + "|",
-    ]
+    """Return the table of the measured series beside its predictions."""
+    lines = []
     with (MEASURED / "comparison.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     for name, word in (("pull_off", "pull-off"), ("jump_in", "jump-in")):
@@ -160,11 +163,12 @@ def measured():
                 for kind in ("matched", "published")
             )
             lines.append(
-                f"| {row['solid']}, {row['protocol']}, {float(row['speed_nm_per_s']):.3g} nm/s "
+                f"{row['solid']}, {row['protocol']}, {float(row['speed_nm_per_s']):.3g} nm/s "
                 f"| {word} | {of['ratio']:.3f} ± {of['error']:.3f} | {' | '.join(bands)} "
-                f"| {of['no_loss']:.3f} |"
+                f"| {of['no_loss']:.3f}"
             )
-    return lines
+    head = "silicone, speed | force | measured | matched spectra | published spectrum | no loss"
+    return table(head, lines)
 
 
 def _percent(x, digits=1):
@@ -175,68 +179,58 @@ def _signed(x, digits=1):
     return f"{100 * x:+.{digits}f} %".replace("-", "−")
 
 
+def _span(x):
+    return f"{_signed(x.min())} to {_signed(x.max())}"
+
+
 def tables():
     """Return tables in Markdown by name."""
     found = {}
-    lines = ["| V | " + " | ".join(f"{v:g}" for v in OPENING) + " |", "|---" * 7 + "|"]
+    lines = []
     for k, n in SOLIDS:
         name = f"standard solid, k = {k:g}" if n is None else f"power law n = {n:g}, k = {k:g}"
         for sign, word in ((1, "opening"), (-1, "closing")):
             values = np.asarray(crack(k, n).amplification(sign * np.array(OPENING)))
-            lines.append(f"| {name}, {word} | " + " | ".join(f"{x:.4g}" for x in values) + " |")
-    found["energies"] = lines
-    lines = [
-        "| solid | form | deviation with the length of the strength | best length over it "
-        "| deviation left |",
-        "|---" * 5 + "|",
-    ]
+            lines.append(" | ".join([f"{name}, {word}", *(f"{x:.4g}" for x in values)]))
+    found["energies"] = table(" | ".join(["V", *(f"{v:g}" for v in OPENING)]), lines)
+    lines = []
     for k, n in SOLIDS:
         name = f"standard, k = {k:g}" if n is None else f"n = {n:g}, k = {k:g}"
         for form in closed_forms.FORMS:
             length = closed_forms.length_of_strength(form, crack(k, n).traction.reduced().strength)
             off = closed_forms.deviations(form, COMPARED, crack(k, n), length)
             best, left = closed_forms.best_length(form, COMPARED, crack(k, n))
-            lines.append(
-                f"| {name} | {form} | {_signed(off.min())} to {_signed(off.max())} "
-                f"| {best / length:.2f} | {_percent(left)} |"
-            )
-    found["closed_forms"] = lines
-    lines = [
-        "| solid | V | second code | package | difference | gap | traction |",
-        "|---" * 7 + "|",
-    ]
+            lines.append(f"{name} | {form} | {_span(off)} | {best / length:.2f} | {_percent(left)}")
+    found["closed_forms"] = table(
+        "solid | form | deviation with the length of the strength | best length over it "
+        "| deviation left",
+        lines,
+    )
+    lines = []
     for row in kept("agreement")["plane"]:
         n = row["exponent"]
         name = "standard" if n is None else f"n = {n:g}"
         lines.append(
-            f"| {name}, k = {row['modulus_ratio']:g} | {row['speed']:g} | {row['energy']:.5g} "
+            f"{name}, k = {row['modulus_ratio']:g} | {row['speed']:g} | {row['energy']:.5g} "
             f"| {row['package']:.5g} | {row['energy_off']:.0e} | {row['gap_off']:.0e} "
-            f"| {row['traction_off']:.0e} |".replace("-", "−")
+            f"| {row['traction_off']:.0e}".replace("-", "−")
         )
-    found["plane"] = lines
-    lines = ["| Tabor number | second code | table of the package | difference |", "|---" * 4 + "|"]
-    for row in kept("agreement")["elastic"]:
-        lines.append(
-            f"| {row['tabor']:g} | {row['force']:.6f} | {row['package']:.6f} "
-            f"| {row['off']:+.0e} |".replace("-", "−")
-        )
-    found["elastic"] = lines
+    head = "solid | V | second code | package | difference | gap | traction"
+    found["plane"] = table(head, lines)
     lines = [
-        "| Tabor number | V | Γ | effective | second code | f(effective) | difference |",
-        "|---" * 7 + "|",
+        f"{row['tabor']:g} | {row['force']:.6f} | {row['package']:.6f} | {row['off']:+.0e}"
+        for row in kept("agreement")["elastic"]
     ]
-    for row in kept("agreement")["moving"]:
-        lines.append(
-            f"| {row['tabor']:g} | {row['speed']:g} | {row['energy']:.4g} | {row['effective']:.3g} "
-            f"| {row['factor']:.5f} | {row['rule']:.5f} | {_signed(row['off'], 2)} |"
-        )
-    found["moving"] = lines
-    data = factors()
+    head = "Tabor number | second code | table of the package | difference"
+    found["elastic"] = table(head, [line.replace("-", "−") for line in lines])
     lines = [
-        "| effective Tabor number | cases | rule: median, worst | derived: median, worst "
-        "| mean of rule, derived |",
-        "|---" * 5 + "|",
+        f"{row['tabor']:g} | {row['speed']:g} | {row['energy']:.4g} | {row['effective']:.3g} "
+        f"| {row['factor']:.5f} | {row['rule']:.5f} | {_signed(row['off'], 2)}"
+        for row in kept("agreement")["moving"]
     ]
+    head = "Tabor number | V | Γ | effective | second code | f(effective) | difference"
+    found["moving"] = table(head, lines)
+    data, lines = factors(), []
     groups = [(f"{low:g} to {high:g}", low, high, data["inside"]) for low, high in BINS]
     every = np.full(data["energy"].shape, True)
     groups += [("all of these", 0, 99, data["inside"]), ("the others", 0, 99, ~data["inside"])]
@@ -248,16 +242,19 @@ def tables():
         off = [data[name][here] / data["simulated"][here] - 1 for name in ("rule", "bounded")]
         parts = [f"{_percent(np.median(abs(x)), 2)}, {_percent(abs(x).max(), 2)}" for x in off]
         means = ", ".join(_signed(x.mean(), 2) for x in off)
-        lines.append(f"| {name} | {here.sum()} | {parts[0]} | {parts[1]} | {means} |")
-    found["factors"] = lines
-    lines = ["| cut over a | median error | worst error |", "|---" * 3 + "|"]
+        lines.append(f"{name} | {here.sum()} | {parts[0]} | {parts[1]} | {means}")
+    found["factors"] = table(
+        "effective Tabor number | cases | rule: median, worst | derived: median, worst "
+        "| mean of rule, derived",
+        lines,
+    )
+    lines = []
     for part in (0.5, 1.0, 2.0):
         here = factors(part)
         off = abs(here["bounded"] / here["simulated"] - 1)[here["inside"]]
-        median, worst = _percent(np.median(off), 2), _percent(off.max(), 2)
-        lines.append(f"| {part * CUT:g} | {median} | {worst} |")
-    found["cuts"] = lines
-    lines = ["| coefficients | mean error | median | worst |", "|---" * 4 + "|"]
+        lines.append(f"{part * CUT:g} | {_percent(np.median(off), 2)} | {_percent(off.max(), 2)}")
+    found["cuts"] = table("cut over a | median error | worst error", lines)
+    lines = []
     rows, inside = kept("range_factor")["rows"], data["inside"]
     for name, terms in (
         ("geometry alone", ""),
@@ -268,21 +265,16 @@ def tables():
         first = np.array([coefficient(row, terms=terms) * row["size"] for row in rows])
         off = (bounded(first) / data["simulated"] - 1)[inside]
         parts = _signed(off.mean(), 2), _percent(np.median(abs(off)), 2)
-        lines.append(f"| {name} | {parts[0]} | {parts[1]} | {_percent(abs(off).max(), 2)} |")
-    found["terms"] = lines
+        lines.append(f"{name} | {parts[0]} | {parts[1]} | {_percent(abs(off).max(), 2)}")
+    found["terms"] = table("coefficients | mean error | median | worst", lines)
     lines = [
-        "| rate | Γ | finest mesh | order | extrapolated | simulated | difference | contact |",
-        "|---" * 8 + "|",
+        f"{row['rate']:g} | {row['energy']:.3g} | {row['finest']:.4f} | {row['order']:.2f} "
+        f"| {row['force']:.4f} | {row['simulated']:.4f} | {_signed(row['off'], 2)} "
+        f"| {_signed(row['contact_off'], 2)}"
+        for row in kept("agreement")["marched"]
     ]
-    for row in kept("agreement")["marched"]:
-        lines.append(
-            f"| {row['rate']:g} | {row['energy']:.3g} | {row['finest']:.4f} | {row['order']:.2f} "
-            f"| {row['force']:.4f} | {row['simulated']:.4f} | {_signed(row['off'], 2)} "
-            f"| {_signed(row['contact_off'], 2)} |"
-        )
-    found["marched"] = lines
-    found["measured"] = measured()
-    return {name: "\n".join(lines) + "\n" for name, lines in found.items()}
+    head = "rate | Γ | finest mesh | order | extrapolated | simulated | difference | contact"
+    return found | {"marched": table(head, lines), "measured": measured()}
 
 
 def numbers():
@@ -295,8 +287,12 @@ def numbers():
     derived = np.array([r["T"] for r in quasi])
     rule = np.array([(r["rule"] - 1) / r["size"] for r in quasi])
     inside = data["inside"]
-    off = {name: abs(data[name] / data["simulated"] - 1)[inside] for name in ("rule", "bounded")}
-    far = inside & (data["effective"] > 5)
+    errors = {
+        name: data[name] / data["simulated"] - 1
+        for name in ("rule", "bounded", "geometry", "first")
+    }
+    off = {name: abs(errors[name])[inside] for name in ("rule", "bounded")}
+    far = {name: error[inside & (data["effective"] > 5)].mean() for name, error in errors.items()}
     bound = kept("work-bound")["numbers"]
     elastic_T = kept("line_tension")["elastic"]
     slopes = np.diff([r["T"] for r in elastic_T]) / np.diff(
@@ -339,9 +335,9 @@ def numbers():
         "rule_worst": _percent(off["rule"].max(), 2),
         "derived_median": _percent(np.median(off["bounded"]), 2),
         "derived_worst": _percent(off["bounded"].max(), 2),
-        "rule_far": _signed((data["rule"] / data["simulated"] - 1)[far].mean(), 2),
-        "derived_far": _signed((data["bounded"] / data["simulated"] - 1)[far].mean(), 2),
-        "geometry_far": _signed((data["geometry"] / data["simulated"] - 1)[far].mean(), 2),
+        "rule_far": _signed(far["rule"], 2),
+        "derived_far": _signed(far["bounded"], 2),
+        "geometry_far": _signed(far["geometry"], 2),
         "fresh_words": (
             f", and {data['fresh'].sum()} cases were drawn after it" if any(data["fresh"]) else ""
         ),
@@ -349,24 +345,18 @@ def numbers():
         "marched_off": _percent(max(abs(r["off"]) for r in agreement["marched"]), 2),
         "marched_contact": " and ".join(_signed(r["contact_off"], 2) for r in agreement["marched"]),
         "near_glassy": str(int(data["glassy"].sum())),
-        "glassy_rule": _percent(
-            np.max(np.abs(data["rule"] / data["simulated"] - 1)[data["glassy"]]), 2
-        ),
+        "glassy_rule": _percent(np.max(np.abs(errors["rule"][data["glassy"]])), 2),
         "dugdale_far": f"{dugdale(40.0)[1]:.5f}",
         "dugdale_size": f"{dugdale(40.0)[0]:.4f}",
         "dugdale_near": f"{dugdale(5.0)[1]:.4f}",
         "dugdale_large": f"{dugdale(5.0)[0]:.3f}",
         "log_slope": f"{min(slopes):.3f} to {max(slopes):.3f}",
-        "first_far": _signed((data["first"] / data["simulated"] - 1)[far].mean(), 2),
+        "first_far": _signed(far["first"], 2),
         "cut": f"{CUT:g}",
         "accuracy": f"{kept('range_cases')['accuracy']:g}",
-        "schapery_off": f"{_signed(form['Schapery'].min())} to {_signed(form['Schapery'].max())}",
-        "stress_off": (
-            f"{_signed(form['constant stress'].min())} to {_signed(form['constant stress'].max())}"
-        ),
-        "pb_off": (
-            f"{_signed(form['Persson-Brener'].min())} to {_signed(form['Persson-Brener'].max())}"
-        ),
+        "schapery_off": _span(form["Schapery"]),
+        "stress_off": _span(form["constant stress"]),
+        "pb_off": _span(form["Persson-Brener"]),
         "bound_unit": f"{bound['unit']:.4f}",
         "bound_rows": f"{bound['short_rows']:,}",
         "bound_largest": f"{bound['largest_short']:.2f}",
