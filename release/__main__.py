@@ -42,7 +42,8 @@ def release(out: Path, url: str = "", sbom: Path | None = None) -> None:
     with tempfile.TemporaryDirectory() as place:
         first, second = (_built(Path(place) / name, url, epoch) for name in ("one", "other"))
         if first != second:
-            raise RuntimeError(f"two builds differ: {_differing(first, second)}")
+            names = {name for name, _ in first.items() ^ second.items()}
+            raise RuntimeError(f"two builds differ: {', '.join(sorted(names))}")
         for name, content in first.items():
             (out / name).write_bytes(content)
     (sdist,) = out.glob("*.tar.gz")
@@ -61,11 +62,6 @@ def _built(place: Path, url: str, epoch: int) -> dict[str, bytes]:
     source.mkdir(parents=True)
     export(ROOT, source, url)
     return {path.name: path.read_bytes() for path in build(source, out, epoch)}
-
-
-def _differing(first: dict[str, bytes], second: dict[str, bytes]) -> str:
-    names = first.keys() | second.keys()
-    return ", ".join(sorted(name for name in names if first.get(name) != second.get(name)))
 
 
 def _digest(path: Path) -> str:

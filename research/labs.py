@@ -241,14 +241,6 @@ def record_of(lab, speed):
     return TackRecord(clock[kept], push[kept], way[kept], into=1)
 
 
-def forecast_of(found, speeds):
-    """Return the forecast at the speeds, or at the first where the others are refused, and why."""
-    try:
-        return forecast_rates(found, speeds), None
-    except vt.OutOfRange as error:
-        return forecast_rates(found, speeds[:1]), str(error)
-
-
 def done(seed, given):
     """Return how one lab fares."""
     growing = given.growing
@@ -292,7 +284,10 @@ def done(seed, given):
         more = (opening / lab["reference_speed"]) ** lab["exponent"]
         truth |= {"strengthening": 1 + more, "exponent": float(lab["exponent"])}
     beyond = found.objective.best(truth).misfit - found.best.misfit
-    forecast, refusal = forecast_of(found, lab["held_out"])
+    try:
+        forecast, refusal = forecast_rates(found, lab["held_out"]), None
+    except vt.OutOfRange as error:
+        forecast, refusal = forecast_rates(found, lab["held_out"][:1]), str(error)
     return {
         "seed": seed,
         "disturbance": lab["disturbance"],

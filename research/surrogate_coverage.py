@@ -109,15 +109,11 @@ def main() -> None:
     """Judge and print a table."""
     parser = argparse.ArgumentParser(description=__doc__)
     add_draw(parser)
-    parser.add_argument("--worst", type=int, default=0, help="print so many of the worst cases")
     given = parser.parse_args()
     cases = drawn(given.seed, counts_of(given.counts))
     known = labelled(cases, given.labels, given.accuracy)
     found = [judged(case, label) for case, label in known if "failed" not in label]
     print(table(found))
-    found.sort(key=lambda one: -float(np.max(np.nan_to_num(one.ratio[:2]))))
-    for one in found[: given.worst]:
-        print(one.case.design, one.case.inputs, one.ratio.round(1), one.off.round(3))
 
 
 if __name__ == "__main__":

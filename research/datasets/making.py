@@ -55,11 +55,6 @@ _OF_SETS = {
 }
 
 
-def how(name: str) -> tuple[int, Targets]:
-    """Return the number of passes of a set, and its target errors."""
-    return _OF_SETS.get(name, (_PASSES, Targets()))
-
-
 def make(
     name: str,
     folder: str | os.PathLike[str],
@@ -76,7 +71,7 @@ def make(
     range. `report` is called for each campaign.
     """
     folder = Path(folder)
-    passes, usual = how(name)
+    passes, usual = _OF_SETS.get(name, (_PASSES, Targets()))
     targets = targets or usual
     plan = read_plan(plan_path(name))
     plan = replace(plan, cases=plan.cases[:cases])
@@ -138,10 +133,14 @@ def write_dataset(
         "licence": LICENCE,
         "citation": CITATION,
         "viscotack": __version__,
-        "made": _days(stores),
+        "made": sorted({begun["began"][:10] for store in stores for begun in store.runs()}),
         "settings": [asdict(store.settings) for store in stores],
         "cases": len(planned),
-        "failures": _failures(stores[0], rows, set(planned)),
+        "failures": [
+            {key: value for key, value in row.items() if key not in ("name", "wall_time_s")}
+            for row in stores[0].failures()
+            if row["name"] in planned and row["name"] not in rows
+        ],
         "columns": units(kind),
         "plan": plan_path(name).read_text(encoding="utf-8"),
     }
@@ -149,16 +148,3 @@ def write_dataset(
     sink = pa.BufferOutputStream()
     pa.parquet.write_table(table, sink, compression="zstd", compression_level=19)
     write_whole(target, sink.getvalue())
-
-
-def _failures(store: Store, rows: Mapping[str, Any], planned: set[str]) -> list[dict[str, Any]]:
-    """Return the cases without a result, with their inputs and the reason."""
-    left_out = ("name", "wall_time_s")
-    kept = [row for row in store.failures() if row["name"] in planned and row["name"] not in rows]
-    return [{k: v for k, v in row.items() if k not in left_out} for row in kept]
-
-
-def _days(stores: list[Store]) -> list[str]:
-    """Return the days on which cases were run."""
-    runs = [begun for store in stores for begun in store.runs()]
-    return sorted({begun["began"][:10] for begun in runs})

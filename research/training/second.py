@@ -180,13 +180,6 @@ def fresh_apart(
     return found
 
 
-def with_levels(made: Surrogate, designs: Sequence[Apart]) -> Surrogate:
-    """Return a surrogate with levels measured on designs that its networks do not know."""
-    assert made.trust is not None, "the networks of the reach are fitted first"
-    trust = untested(made.trust.reach)
-    return replace(made, trust=levelled(trust, [[(trust, one)] for one in designs]))
-
-
 def main() -> None:
     """Fit, measure and write."""
     parser = argparse.ArgumentParser(prog="python -m research.training.second")
@@ -206,7 +199,10 @@ def main() -> None:
     fresh: dict[str, Any] = {"seed": SEED, "counts": fresh_cases.COUNTS}
     if chosen.contact == "solids":
         some = fresh_apart(made, chosen.labels, draw=LEVELS, answered=True, accuracy=FINE)
-        made = with_levels(made, some)
+        # levels measured on designs that the networks of the reach do not know
+        assert made.trust is not None
+        trust = untested(made.trust.reach)
+        made = replace(made, trust=levelled(trust, [[(trust, one)] for one in some]))
         fresh["levels"] = {"seed": LEVELS[0], "answered": sum(len(one.told) for one in some)}
     sealed = ("form", "sha256", "contact", "power law")
     facts = {name: each for name, each in store.facts(path).items() if name not in sealed}

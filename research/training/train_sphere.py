@@ -9,7 +9,6 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.prediction.surrogate import physics
@@ -133,15 +132,10 @@ def measuring_rows(test: rows.Rows) -> tuple[rows.Rows, ...]:
 
 
 def parted() -> tuple[rows.Rows, rows.Rows]:
-    """Return the rows that networks learn from, and those kept apart."""
+    """Return the rows that networks learn from, and those kept apart: the same in every run."""
     whole = rows.read(*LEARNED)
-    kept = kept_apart(len(whole))
+    kept = np.random.default_rng(_SEED).random(len(whole)) < _KEPT
     return whole.chosen(~kept), whole.chosen(kept)
-
-
-def kept_apart(count: int) -> npt.NDArray[np.bool_]:
-    """Return which of the rows no network learns from: the same in every run."""
-    return np.random.default_rng(_SEED).random(count) < _KEPT
 
 
 # Tasks ---------------------------------------------------------------------------------------

@@ -44,16 +44,10 @@ _MARGIN = 1.6
 TIP_OVER_LAMBDA = ALPHA_LJ**2 / (np.pi * ALPHA**2)
 
 
-def full_start(k: float) -> vt.AtRadius:
-    """Return a start that no rate finds too small."""
-    return vt.AtRadius(_MARGIN * (9 / (8 * k)) ** (1 / 3))
-
-
 def simulated(each: Any, k: float, exponent: float, rates: Any, tabor: float = TABOR) -> Numbers:
     """Return force [1.5 pi R dg0] and crack speed [l0/tau0] by rate, from a large start."""
-    works = [
-        Work(sphere(float(r), full_start(k), tabor=tabor, k=k, exponent=exponent)) for r in rates
-    ]
+    start = vt.AtRadius(_MARGIN * (9 / (8 * k)) ** (1 / 3))
+    works = [Work(sphere(float(r), start, tabor=tabor, k=k, exponent=exponent)) for r in rates]
     found = table(each, works)
     return {
         "energy": found["force"],

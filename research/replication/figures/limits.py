@@ -46,6 +46,7 @@ def numbers_limits(bench: Bench) -> Numbers:
         bench.each,
         [Work(punch(50.0, r, geometry=vt.FlatPunch(5.0))) for r in (1e-2, 1e4)],
     )
+    lens_rows = np.array(list(bench.each(both, SPEEDS)))
     return {
         "tabor": np.array(TABORS),
         "slow": slow["force"],
@@ -61,13 +62,8 @@ def numbers_limits(bench: Bench) -> Numbers:
         "broad_force": float(broad["force"][0]),
         "broad_error": float(broad["force_error"][0]),
         "narrow_punch": narrow["force"],
-        "lens": dict(zip(("simulated", "error", "crack", "band"), _lens(bench.each), strict=True)),
+        "lens": dict(zip(("simulated", "error", "crack", "band"), lens_rows.T, strict=True)),
     }
-
-
-def _lens(each: Any) -> Any:
-    rows = np.array(list(each(both, SPEEDS)))
-    return rows.T
 
 
 def both(speed: float) -> tuple[float, float, float, float]:

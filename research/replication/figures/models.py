@@ -76,14 +76,11 @@ def numbers_table_A_1(bench: Bench) -> Numbers:
 
 def draw_table_A_1(numbers: Numbers, figure: Figure) -> None:
     names = [name for name in numbers if name != "rows"]
-    table = {
-        "columns": ["ours / thesis", *names],
-        "rows": [
-            [word, *(f"{numbers[n]['here'][i]:.4g} / {numbers[n]['thesis'][i]:.4g}" for n in names)]
-            for i, word in enumerate(_WORDS)
-        ],
-    }
-    drawn_table(table["columns"], table["rows"], figure)
+    rows = [
+        [word, *(f"{numbers[n]['here'][i]:.4g} / {numbers[n]['thesis'][i]:.4g}" for n in names)]
+        for i, word in enumerate(_WORDS)
+    ]
+    drawn_table(["ours / thesis", *names], rows, figure)
 
 
 RATES, DEPTHS = (0.02, 0.05, 0.1, 0.3), (4, 6, 8)
@@ -245,18 +242,17 @@ def _grid(rows: Learned) -> dict[str, Any]:
     known, stop, y, of_stop = train_test_split(some, of_some, test_size=_STOP, random_state=_SEED)
     data, beside = xgboost.DMatrix(known, label=y), xgboost.DMatrix(stop, label=of_stop)
     tried = []
-    for rate in _RATES:
-        for depth in _DEPTHS:
-            settings = {"eta": rate, "max_depth": depth, "seed": _SEED, "nthread": 1}
-            best = xgboost.train(
-                {"objective": "reg:squarederror", "eval_metric": "rmse", **settings},
-                data,
-                num_boost_round=_ROUNDS,
-                evals=[(beside, "held")],
-                early_stopping_rounds=_PATIENCE,
-                verbose_eval=False,
-            )
-            tried.append((best.best_score, rate, depth, best.best_iteration))
+    for rate, depth in product(_RATES, _DEPTHS):
+        settings = {"eta": rate, "max_depth": depth, "seed": _SEED, "nthread": 1}
+        best = xgboost.train(
+            {"objective": "reg:squarederror", "eval_metric": "rmse", **settings},
+            data,
+            num_boost_round=_ROUNDS,
+            evals=[(beside, "held")],
+            early_stopping_rounds=_PATIENCE,
+            verbose_eval=False,
+        )
+        tried.append((best.best_score, rate, depth, best.best_iteration))
     error, rate, depth, rounds = min(tried)
     return {"rmse": float(error), "eta": rate, "depth": depth, "rounds": int(rounds)}
 

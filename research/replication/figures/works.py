@@ -90,9 +90,8 @@ def draw_5_10(numbers: Numbers, figure: Figure) -> None:
     axes[1].legend(loc="lower right")
 
 
-TABORS_OF_WORK = (0.05, 0.2, 0.8, 3.2)
 _RADII = (6.1377, 3.0689, 1.9564, 2.0139)
-_DEPTH, _RATE, _FAST = 73.0, 1e5, 1e9
+_RATE, _FAST = 1e5, 1e9
 
 
 def jkr_work(tabor: object) -> object:
@@ -104,13 +103,9 @@ def jkr_work(tabor: object) -> object:
 
 def numbers_A_6(bench: Bench) -> Numbers:
     """Return the works by Tabor number: learned, simulated at two rates, and by two estimates."""
-    mu = np.array(TABORS_OF_WORK)
-    works = [
-        Work(sphere(r, _DEPTH, tabor=m, exponent=1.6))
-        for r in (_RATE, _FAST)
-        for m in TABORS_OF_WORK
-    ]
-    found = table(bench.each, works, (2, len(TABORS_OF_WORK)))
+    mu = np.array(TABORS)
+    works = [Work(sphere(r, _DEPTH, tabor=m, exponent=1.6)) for r in (_RATE, _FAST) for m in TABORS]
+    found = table(bench.each, works, (2, len(TABORS)))
     case = {"modulus_ratio": K, "exponent": 1.6, "preload": _DEPTH, "rate": _RATE}
     return {
         "tabor": mu,
@@ -136,10 +131,9 @@ def draw_A_6(numbers: Numbers, figure: Figure) -> None:
     ax.legend()
 
 
-LARGE_TABOR, _DEPTH, NARROW = 3.2, 73.0, 1.6
+LARGE_TABOR, NARROW = 3.2, 1.6
 WIDE_RATES = np.geomspace(0.1, 1e8, 37)
 WIDE_POINTS = np.geomspace(0.01, 1e7, 28)
-_PRINTED_RADIUS = 2.0139
 
 
 def numbers_A_7(bench: Bench) -> Numbers:
@@ -156,7 +150,7 @@ def numbers_A_7(bench: Bench) -> Numbers:
         "simulated": found["work"],
         "error": found["work_error"],
         "rubbery": float(np.asarray(jkr_work(LARGE_TABOR))),
-        "glassy": float(4 / 3 * _PRINTED_RADIUS**2 * np.pi ** (2 / 3) * LARGE_TABOR),
+        "glassy": float(4 / 3 * _RADII[-1] ** 2 * np.pi ** (2 / 3) * LARGE_TABOR),
     }
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
-from scipy.special import dawsn, ellipk
+from scipy.special import dawsn, ellipk, gamma, spence
 
 from viscotack import RelaxationPowerLaw
 from viscotack.theory import greenwood, jkr, maugis, persson_brener, punch
@@ -276,8 +276,6 @@ def _loss_from_storage(omega: np.ndarray, storage: np.ndarray) -> np.ndarray:
 
     The integral of ln coth|t/2| from 0 to y is pi^2/4 less half the difference of two dilogarithms.
     """
-    from scipy.special import spence
-
     y = np.log(omega)
     apart = y[None, :] - y[:, None]
     z = np.exp(-np.abs(apart))
@@ -287,8 +285,6 @@ def _loss_from_storage(omega: np.ndarray, storage: np.ndarray) -> np.ndarray:
 
 def creep_forms(of: Of) -> Measured:
     """Return the largest difference of Eq. 4.9 from the integral of Eq. 4.8, n = 0.6."""
-    from scipy.special import gamma
-
     material = solid(0.1, 0.6)
     off = 0.0
     for t in (1e-3, 0.1, 1.0, 30.0):
