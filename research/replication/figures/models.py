@@ -172,7 +172,7 @@ def draw_A_9(numbers: Numbers, figure: Figure) -> None:
 _SEED, _OTHER_SEED = 42, 40
 SEEDS = {"5.1": _SEED, "5.2": _OTHER_SEED, "5.3": _SEED, "5.4": _SEED}
 # The authors' grid of boosting, and the shares of the rows that test and stop it.
-_RATES, _DEPTHS, _ROUNDS, _PATIENCE = (0.01, 0.05, 0.1), (3, 6, 9), 1000, 10
+_RATES, _DEPTHS, _ROUNDS, _NO_GAIN = (0.01, 0.05, 0.1), (3, 6, 9), 1000, 10
 _TEST, _STOP = 0.20, 0.15
 
 
@@ -249,7 +249,7 @@ def _grid(rows: Learned) -> dict[str, Any]:
             data,
             num_boost_round=_ROUNDS,
             evals=[(beside, "held")],
-            early_stopping_rounds=_PATIENCE,
+            early_stopping_rounds=_NO_GAIN,
             verbose_eval=False,
         )
         tried.append((best.best_score, rate, depth, best.best_iteration))
