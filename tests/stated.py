@@ -20,7 +20,6 @@ PUNCH = {
     "rate": 10.0,
 }
 ELASTIC = 'model = "elastic"'
-STANDARD = 'model = "sls"\nglassy_modulus = "10 MPa"\ntau0 = "1 ms"'
 PRESSED = 'preload_depth = "1 um"\nspeed = "10 um/s"'
 
 

@@ -6,11 +6,9 @@ import sys
 import numpy as np
 import pytest
 
-import stated
 import viscotack
 from command_line import exit_status, refused
 from synthetic import jkr_detachment, jkr_result
-from test_case_file import PROBLEM
 from viscotack import simulate
 from viscotack.app import cli
 from viscotack.model.materials import Elastic, RetardationPowerLaw
@@ -177,17 +175,6 @@ def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
     table = np.genfromtxt(tmp_path / "again.csv", delimiter=",", names=True)
     np.testing.assert_array_equal(table["force"], load(path).force)
     assert "pull-off force" in capsys.readouterr().out
-
-
-def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
-    path = tmp_path / "lens.toml"
-    path.write_text(stated.LENS)
-    assert exit_status([*SPHERE, path]) == 0
-    assert fake["problem"] == PROBLEM
-    out = capsys.readouterr().out
-    assert "3.7248 mN" in out
-    path.write_text(stated.LENS.replace("5.19 mm", "5.19"))
-    assert "[sphere] radius: '5.19' has no unit" in refused([*SPHERE, path], capsys)
 
 
 def test_a_true_simulation_from_a_terminal():

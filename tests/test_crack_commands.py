@@ -54,9 +54,3 @@ def test_a_contact_with_a_crack_for_its_edge_in_json_csv_and_a_picture(capsys, t
     force = [float(row.split(",")[2]) for row in rows]
     assert -min(force) == pytest.approx(answer["pull_off_force"], rel=1e-3)
     assert picture.stat().st_size > 1000
-
-
-def test_a_contact_that_the_theory_does_not_hold_for_is_refused(capsys):
-    problem = ["--tabor", 0.5, "--material", "sls", "--modulus-ratio", 0.1]
-    assert exit_status(["theory", "crack-contact", *problem, "--preload", 20, "--rate", 1]) == 2
-    assert "cohesive zone is too large" in capsys.readouterr().err

@@ -6,6 +6,7 @@ import re
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import tack_files
@@ -45,8 +46,24 @@ RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
 RUBBER = StandardSolid(
     rubbery_modulus=1.458e6, glassy_modulus=4.374e6, tau0=1e-3, poisson_ratio=0.5
 )
-DMA = {"files": ["pdms_dma.csv"], "poisson_ratio": 0.5, "model": "sls"}
-SHIFTED = {"reference_temperature": "20 degC", "glass_transition": "-115 degC"}
+# Any option of a fit, to sweeps that do not state their units.
+FIT = {
+    "files": ["sweeps.csv"],
+    "poisson_ratio": 0.45,
+    "model": "sls",
+    "rubbery_modulus": "1 MPa",
+    "loss": False,
+    "level": 0.8,
+    "name": "a rubber",
+    "source": "nobody",
+    "kind": "E",
+    "temperature_unit": "degC",
+    "modulus_unit": "MPa",
+    "reference_temperature": "-30 degC",
+    "shift_by": "storage",
+    "vertical": "6e-4 1/K",
+    "leave_out": ["-20 degC"],
+}
 JKR = {"radius": "1 mm", "contact_modulus": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
 CRACK = {"modulus_ratio": 0.1, "exponent": 0.6, "speed": [1.0, 10.0]}
 # Examples that are smaller here, by their lines.
@@ -88,7 +105,7 @@ ASKED = {
 # The same of those that take seconds.
 NOT_DRAWN = {
     "identify rates": RATES | {"material": "rubber.toml"},
-    "material fit": DMA | SHIFTED,
+    "material fit": FIT,
     "simulate": {"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"},
     "sweep": SWEEP,
     "array": {"file": "wafer_pad.toml", "accuracy": 0.01},
@@ -118,6 +135,13 @@ def folder(tmp_path, monkeypatch):
             text = re.sub(rf"(?m)^{key} = .*$", value and f"{key} = {value}", text)
         (tmp_path / name).write_text(text)
     write_passport(Passport(name="rubber", material=RUBBER), tmp_path / "rubber.toml")
+    rows = ["f,T,storage modulus,loss modulus", "Hz,,,"]
+    for celsius, slower in ((-40, 10.0), (-30, 1.0), (-20, 0.16)):
+        for hertz in np.geomspace(0.05, 50, 8):
+            # around the relaxation of the rubber, which is at 300 Hz
+            E = RUBBER.complex_modulus(2 * np.pi * 300 * slower * hertz) / 1e6
+            rows.append(f"{hertz:.8g},{celsius},{E.real:.8g},{E.imag:.8g}")
+    (tmp_path / "sweeps.csv").write_text("\n".join(rows) + "\n")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -271,14 +295,6 @@ def test_a_flag_of_a_wrong_kind_is_refused_and_nothing_else(name):
     for value in GARBAGE:
         with contextlib.suppress(InputError, OSError):
             statement({**SPHERE, name: value}, Contact(""), Caller())
-
-
-def test_a_wrong_unit_is_the_fault_of_its_option_and_not_of_a_file():
-    file = Path(__file__).parents[1] / "examples" / "from_rig" / "lens_1_um_s.csv"
-    asked = request_of(operations()["test read"], {"files": [str(file)], "force_unit": "mm"})
-    with pytest.raises(InputError) as refused:
-        asked.answer(Caller())
-    assert refused.value.field == "force_unit"
 
 
 def test_a_measured_profile_has_no_exponent(tmp_path):

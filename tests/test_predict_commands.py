@@ -1,7 +1,6 @@
 """viscotack predict: one contact, one file, a table of thousands."""
 
 import csv
-import json
 from pathlib import Path
 
 import pytest
@@ -9,7 +8,6 @@ import pytest
 import viscotack as vt
 from command_line import answered, exit_status, refused
 from stated import LENS
-from viscotack.prediction import cautions_on
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 RATE = ["--rate", "316.23"]
@@ -42,19 +40,6 @@ def wrong(capsys, *arguments):
 def table(path):
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
-
-
-def test_flags_and_a_file_give_what_python_gives(lens, capsys):
-    material = vt.RetardationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.8, tau0=1.0, poisson_ratio=0.0
-    )
-    groups = vt.Groups(tabor=3.24, material=material, start=vt.AtDepth(73.0), rate=316.23)
-    for problem, words in ((groups, [*SPHERE, *RATE]), (vt.read_case(lens), [lens])):
-        expected = vt.prediction_summary(vt.predict(problem, confidence=0.8))
-        assert expected["inside"]
-        expected["cautions"] = list(cautions_on(problem))
-        assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
-    assert answer(capsys, "sphere", lens) == answer(capsys, lens)
 
 
 def test_a_number_of_a_file_is_replaced_with_its_unit(lens, capsys):

@@ -9,7 +9,6 @@ from scipy.special import struve
 
 import viscotack as vt
 from stated import case_text
-from viscotack.files.toml import toml_value
 from viscotack.simulate.contacts.shape import ShapeContact
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import contact_of
@@ -190,22 +189,3 @@ def test_parts_of_a_contact_that_comes_together_are_counted():
     assert vt.summary(result)["most_rings"] == 2
     assert result.rings is not None and result.rings[-1] == 1
     assert result.energy_residual is not None and result.energy_residual < 5e-3
-
-
-ROWS = [[f"{r} um", f"{max(r * r - 6400, 0) / 10:.1f} nm"] for r in range(0, 401, 100)]
-TABLES = {
-    "measured-profile": {"points": ROWS},
-    "wavy-sphere": {"radius": "5 mm", "amplitude": "0.2 um", "wavelength": "100 um"},
-    "disc": {"radius": "50 um"},
-}
-
-
-@pytest.mark.parametrize("word", TABLES)
-def test_other_shapes_are_advised_to_be_simulated(word, tmp_path):
-    keys = "\n".join(f"{key} = {toml_value(value)}" for key, value in TABLES[word].items())
-    path = tmp_path / "case.toml"
-    path.write_text(case_of(word, keys))
-    case = vt.read_case(path)
-    with pytest.raises(vt.OutOfRange, match=f"the shape is {word}"):
-        vt.predict(case)
-    assert vt.advise(case).use == "simulation"

@@ -191,11 +191,3 @@ def test_an_exception_in_a_noun_fails_its_check_and_ends_no_other():
 
     with pytest.raises(AssertionError, match="(?s)plateaus: ZeroDivisionError.*monotone"):
         check(Broken(**SOLID), thorough=False)
-
-
-def test_a_missing_member_is_named():
-    class Incomplete:
-        word, symmetry, gap, reduced = "incomplete", "revolution", None, None
-
-    with pytest.raises(vt.InputError, match="lacks flank"):
-        checks(dataclass(frozen=True)(Incomplete)())

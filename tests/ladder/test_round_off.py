@@ -23,16 +23,6 @@ def hung(load, **options):
     return sphere(vt.AtForce(0.0), vt.LoadTo(-load, 1e-3), vt.Dwell(1e3, hold="force"), **options)
 
 
-def dugdale(material):
-    hang = (vt.LoadTo(-0.5, 0.1), vt.LoadTo(-6.0, 1.0), vt.Dwell(1.0, hold="force"))
-    return sphere(vt.AtForce(0.5), *hang, material=material, traction=vt.Dugdale(1.0, 1.0))
-
-
-def cycles(number, **options):
-    cycle = (vt.Approach(5.0, vt.AtDepth(5.0)), vt.Retract(5.0, vt.AtDepth(-25.0)))
-    return sphere(vt.Apart(15.0), *number * cycle, rate=1.0, tabor=3.0, **options)
-
-
 def there_and_back(**options):
     return sphere(vt.Apart(20.0), vt.Approach(1.0, vt.AtDepth(5.0)), rate=1.0, **options)
 
