@@ -4,24 +4,19 @@ from dataclasses import fields
 
 import numpy as np
 
-from viscotack.model.geometry import Sphere
-from viscotack.model.materials import StandardSolid
-from viscotack.model.problem import Groups, Problem
-from viscotack.model.protocol import AtDepth, AtForce, Retraction
-from viscotack.model.traction import LennardJones
-from viscotack.result import Energies, Event, Result
+import viscotack as vt
 
 TABOR, RATE = 3.24, 7.0
 # Displacements of Eq. 4.16 in h0.
 DISPLACEMENT = TABOR * np.pi ** (2 / 3)
 
-SI = Problem(
-    StandardSolid(rubbery_modulus=1.458e6, glassy_modulus=14.58e6, tau0=0.02, poisson_ratio=0.5),
-    LennardJones(0.1523, 1.55e-6),
-    Sphere(5.19e-3),
-    Retraction(AtForce(1.5e-3), 100e-6),
+SI = vt.Problem(
+    vt.StandardSolid(rubbery_modulus=1.458e6, glassy_modulus=14.58e6, tau0=0.02, poisson_ratio=0.5),
+    vt.LennardJones(0.1523, 1.55e-6),
+    vt.Sphere(5.19e-3),
+    vt.Retraction(vt.AtForce(1.5e-3), 100e-6),
 )
-GROUPS = Groups(tabor=TABOR, material=SI.material.reduced(), start=AtDepth(20), rate=RATE)
+GROUPS = vt.Groups(tabor=TABOR, material=SI.material.reduced(), start=vt.AtDepth(20), rate=RATE)
 
 # Of a JKR contact, all exact (Eq. 4.16, and the work of Eq. 46).
 PULL_OFF_RADIUS = (9 / 8) ** (1 / 3)
@@ -61,7 +56,7 @@ def jkr_result(*, start=2.3, end=0.6, steps=200, shift=0.5, **changes):
         status="still in contact just past the pull-off",
         statistics={"steps": steps, "newton_iterations": 3 * steps, "wall_time_s": 0.25},
     )
-    return Result(**(parts | changes))
+    return vt.Result(**(parts | changes))
 
 
 def jkr_detachment(*, steps=200, far=40.0, **changes):
@@ -80,7 +75,7 @@ def jkr_detachment(*, steps=200, far=40.0, **changes):
     nothing = np.full_like(after, np.nan)
     depth = np.concatenate([first.depth, after])
     time = (depth[0] - depth) / RATE
-    jump = Event(
+    jump = vt.Event(
         "jump out of contact",
         time=time[len(first.depth)],
         depth=after[0],
@@ -101,14 +96,14 @@ def jkr_detachment(*, steps=200, far=40.0, **changes):
             interface=np.concatenate([np.full(len(first.depth), -20.0), -(16 / 9) / d])
         ),
     )
-    return Result(**(parts | changes))
+    return vt.Result(**(parts | changes))
 
 
 def energies(**known):
     """Return the books of a run of which only some are known; the others are zero."""
     steps = max(len(values) for values in known.values())
-    books = {field.name: np.zeros(steps) for field in fields(Energies)}
-    return Energies(**(books | known))
+    books = {field.name: np.zeros(steps) for field in fields(vt.Energies)}
+    return vt.Energies(**(books | known))
 
 
 def work_of_separation(jump_depth):

@@ -4,29 +4,23 @@ from pathlib import Path
 
 import pytest
 
+import viscotack as vt
 from stated import LENS, case_text
-from viscotack.errors import InputError
-from viscotack.model.geometry import Sphere
-from viscotack.model.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
-from viscotack.model.problem import Problem
-from viscotack.model.problem.case_file import case_of_tables, read_case
+from viscotack.model.problem.case_file import case_of_tables
 from viscotack.model.problem.prony_file import read_prony
-from viscotack.model.problem.record import to_dict
 from viscotack.model.problem.schema import schema
-from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
-from viscotack.model.traction import LennardJones
 
-PROBLEM = Problem(
-    material=RetardationPowerLaw(
+PROBLEM = vt.Problem(
+    material=vt.RetardationPowerLaw(
         rubbery_modulus=1.458e6,
         glassy_modulus=3.089e9,
         exponent=0.2207,
         tau0=0.01876,
         poisson_ratio=0.5,
     ),
-    traction=LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
-    geometry=Sphere(radius=5.19e-3),
-    protocol=Retraction(start=AtForce(force=1.5e-3), speed=100e-6),
+    traction=vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
+    geometry=vt.Sphere(radius=5.19e-3),
+    protocol=vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=100e-6),
 )
 
 
@@ -56,38 +50,38 @@ LAW = 'glassy_modulus = "1 GPa"\ntau0 = "2 min"\nexponent = 0.5'
     [
         (
             f'model = "sls"\n{BASE}glassy_modulus = "1 GPa"\ntau0 = "2 min"',
-            StandardSolid(**SOLID, glassy_modulus=1e9, tau0=120),
+            vt.StandardSolid(**SOLID, glassy_modulus=1e9, tau0=120),
         ),
         (
             f'model = "relaxation-power-law"\n{BASE}{LAW}',
-            RelaxationPowerLaw(**SOLID, glassy_modulus=1e9, tau0=120, exponent=0.5),
+            vt.RelaxationPowerLaw(**SOLID, glassy_modulus=1e9, tau0=120, exponent=0.5),
         ),
         (
             f'model = "prony"\n{BASE}branches = [["5 MPa", "2 s"], ["4 kPa", "1 h"]]',
-            Prony(**SOLID, branches=((5e6, 2.0), (4e3, 3600.0))),
+            vt.Prony(**SOLID, branches=((5e6, 2.0), (4e3, 3600.0))),
         ),
         (
             f'model = "prony"\n{BASE}file = "series.csv"',
-            Prony(**SOLID, branches=((5e6, 120.0), (4e6, 3600.0))),
+            vt.Prony(**SOLID, branches=((5e6, 120.0), (4e6, 3600.0))),
         ),
     ],
 )
 def test_every_model_can_be_written(lines, material, tmp_path):
     (tmp_path / "series.csv").write_text("modulus_ratio,relaxation_time_min\n5,2\n4,60\n")
-    assert read_case(written(tmp_path, with_material(lines))).material == material
+    assert vt.read_case(written(tmp_path, with_material(lines))).material == material
 
 
 @pytest.mark.parametrize(
     ("line", "start"),
     [
-        ('preload_depth = "2 um"', AtDepth(2e-6)),
-        ('preload_force = "-1 mN"', AtForce(-1e-3)),
-        ('preload_radius = "0.25 mm"', AtRadius(2.5e-4)),
+        ('preload_depth = "2 um"', vt.AtDepth(2e-6)),
+        ('preload_force = "-1 mN"', vt.AtForce(-1e-3)),
+        ('preload_radius = "0.25 mm"', vt.AtRadius(2.5e-4)),
     ],
 )
 def test_every_start_can_be_written(line, start, tmp_path):
     text = edited('preload_force = "1.5 mN"', line)
-    assert read_case(written(tmp_path, text)).protocol.start == start
+    assert vt.read_case(written(tmp_path, text)).protocol.start == start
 
 
 @pytest.mark.parametrize(
@@ -115,15 +109,15 @@ def test_every_start_can_be_written(line, start, tmp_path):
     ],
 )
 def test_a_wrong_case_is_refused_with_its_field(text, field, tmp_path):
-    with pytest.raises(InputError, match=re.escape("case.toml")) as caught:
-        read_case(written(tmp_path, text))
+    with pytest.raises(vt.InputError, match=re.escape("case.toml")) as caught:
+        vt.read_case(written(tmp_path, text))
     assert caught.value.field == field
     assert all(part in str(caught.value) for part in field.split("."))
 
 
 def test_a_file_that_is_no_toml_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"case\.toml.*TOML"):
-        read_case(written(tmp_path, "[material"))
+    with pytest.raises(vt.InputError, match=r"case\.toml.*TOML"):
+        vt.read_case(written(tmp_path, "[material"))
 
 
 @pytest.mark.parametrize(
@@ -161,7 +155,7 @@ def test_the_documented_case_is_the_lens(tmp_path):
     text = (Path(__file__).parents[1] / "docs/input.md").read_text(encoding="utf-8")
     example = re.search(r"```toml\n(.*?)```", text, flags=re.S)
     assert example
-    assert read_case(written(tmp_path, example[1])) == PROBLEM
+    assert vt.read_case(written(tmp_path, example[1])) == PROBLEM
     series = re.search(r"```text\n(.*?)```", text, flags=re.S)
     assert series
     (tmp_path / "series.csv").write_text(series[1])
@@ -179,7 +173,7 @@ def test_the_documented_case_is_the_lens(tmp_path):
 )
 def test_tables_that_were_sent_name_no_file(table, replaced):
     tables = tomllib.loads(LENS) | {table: replaced}
-    with pytest.raises(InputError, match=r"the case, \[.*which is not allowed in a request"):
+    with pytest.raises(vt.InputError, match=r"the case, \[.*which is not allowed in a request"):
         case_of_tables(tables)
 
 
@@ -196,8 +190,8 @@ def test_tables_that_were_sent_name_no_file(table, replaced):
 def test_absurd_quantities_are_refused(more, name, tmp_path):
     file = tmp_path / "case.toml"
     file.write_text(case_text(**more))
-    with pytest.raises(InputError, match=name):
-        read_case(file)
+    with pytest.raises(vt.InputError, match=name):
+        vt.read_case(file)
 
 
 def test_tips_of_microscopes_and_creep_are_no_absurd_quantities(tmp_path):
@@ -205,14 +199,14 @@ def test_tips_of_microscopes_and_creep_are_no_absurd_quantities(tmp_path):
     slow = 'preload_depth = "0.1 pm"\nspeed = "1e-3 pm/s"'
     text = case_text(radius="5 nm", protocol=slow).replace('gap = "1 um"', 'gap = "0.2 nm"')
     file.write_text(text.replace("50 mJ", "0.1 uJ"))
-    assert read_case(file).geometry.radius == 5e-9
+    assert vt.read_case(file).geometry.radius == 5e-9
 
 
 @pytest.mark.parametrize("name", ["lens", "glass_lens", "pad", "cone", "worn"])
 def test_the_schema_has_every_key_of_a_file_and_of_its_json(name):
     path = Path(__file__).parents[1] / "examples" / "from_toml" / f"{name}.toml"
     found = schema()
-    for tables in (tomllib.loads(path.read_text()), to_dict(read_case(path))):
+    for tables in (tomllib.loads(path.read_text()), vt.to_dict(vt.read_case(path))):
         for table, values in tables.items():
             given = found["properties"][table]
             named = {each["$ref"] for each in given.get("anyOf", [given])}

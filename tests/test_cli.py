@@ -6,16 +6,10 @@ import sys
 import numpy as np
 import pytest
 
-import viscotack
+import viscotack as vt
 from command_line import exit_status, refused
 from synthetic import jkr_detachment, jkr_result
-from viscotack import simulate
 from viscotack.app import cli
-from viscotack.model.materials import Elastic, RetardationPowerLaw
-from viscotack.model.problem import Groups, Problem
-from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
-from viscotack.model.traction import LennardJones
-from viscotack.result import load
 
 SPHERE = ["simulate", "sphere"]
 ISSUE = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73 --rate 316.23".split()
@@ -29,25 +23,25 @@ def fake(monkeypatch):
 
     def solve(problem, **options):
         asked.update(options, problem=problem)
-        return viscotack.Result(
+        return vt.Result(
             **{
                 **{f: getattr(asked["result"], f) for f in asked["result"].__dataclass_fields__},
                 "problem": problem,
             }
         )
 
-    monkeypatch.setattr(simulate, "solve", solve)
+    monkeypatch.setattr(vt.simulate, "solve", solve)
     return asked
 
 
 def test_the_five_numbers_are_the_power_law(fake, capsys):
     assert exit_status([*SPHERE, *ISSUE]) == 0
-    expected = Groups(
+    expected = vt.Groups(
         tabor=3.24,
-        material=RetardationPowerLaw(
+        material=vt.RetardationPowerLaw(
             rubbery_modulus=1, glassy_modulus=10, exponent=0.8, tau0=1, poisson_ratio=0
         ),
-        start=AtDepth(73),
+        start=vt.AtDepth(73),
         rate=316.23,
     )
     assert fake["problem"] == expected
@@ -62,15 +56,15 @@ def test_the_five_numbers_are_the_power_law(fake, capsys):
 @pytest.mark.parametrize(
     ("flags", "start"),
     [
-        (["--preload", "-1.5"], AtDepth(-1.5)),
-        (["--preload-force", "2.5"], AtForce(2.5)),
-        (["--preload-radius", "3.61"], AtRadius(3.61)),
+        (["--preload", "-1.5"], vt.AtDepth(-1.5)),
+        (["--preload-force", "2.5"], vt.AtForce(2.5)),
+        (["--preload-radius", "3.61"], vt.AtRadius(3.61)),
     ],
 )
 def test_a_start_is_by_depth_force_or_radius(flags, start, fake):
     exit_status([*SPHERE, "--material", "elastic", "--tabor", "2", *flags])
     assert fake["problem"].start == start
-    assert fake["problem"].material == Elastic(rubbery_modulus=1, poisson_ratio=0)
+    assert fake["problem"].material == vt.Elastic(rubbery_modulus=1, poisson_ratio=0)
 
 
 LENS = {
@@ -94,14 +88,14 @@ def lens(**changes):
 def test_flags_with_units_state_a_problem_in_si(fake, capsys):
     assert exit_status([*lens(), "--json"]) == 0
     problem = fake["problem"]
-    assert isinstance(problem, Problem)
+    assert isinstance(problem, vt.Problem)
     assert problem.geometry.radius == 5.19e-3
     solid = problem.material
     assert (solid.exponent, solid.tau0, solid.poisson_ratio) == (0.8, 0.01876, 0.5)
     assert solid.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
     assert solid.glassy_modulus == pytest.approx(1.458e7, rel=1e-12)
-    assert problem.protocol == Retraction(start=AtForce(1.5e-3), speed=1e-4)
-    assert problem.traction == LennardJones(0.1523, 1.55e-6)
+    assert problem.protocol == vt.Retraction(start=vt.AtForce(1.5e-3), speed=1e-4)
+    assert problem.traction == vt.LennardJones(0.1523, 1.55e-6)
     answer = json.loads(capsys.readouterr().out)
     assert answer["pull_off_force_N"] == pytest.approx(3.7248e-3, rel=1e-4)
     exit_status(lens(contact_modulus=None, rubbery_modulus="1.458 MPa"))
@@ -173,7 +167,7 @@ def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
     assert json.loads(capsys.readouterr().out) == first
     assert exit_status(["show", path, "--csv", tmp_path / "again.csv"]) == 0
     table = np.genfromtxt(tmp_path / "again.csv", delimiter=",", names=True)
-    np.testing.assert_array_equal(table["force"], load(path).force)
+    np.testing.assert_array_equal(table["force"], vt.load(path).force)
     assert "pull-off force" in capsys.readouterr().out
 
 

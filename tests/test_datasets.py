@@ -5,15 +5,12 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+import viscotack as vt
+
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 
-from viscotack import datasets, solve  # noqa: E402
 from viscotack.model.problem.kinds import KINDS  # noqa: E402
-from viscotack.result.observables import (
-    pull_off,
-    work_to_pull_off,  # noqa: E402
-)
 
 # Table A.1 of Maghami, PhD thesis (2025): mean, median, standard deviation, least and largest.
 TABLE_A1 = {
@@ -32,7 +29,7 @@ INPUTS = {
 
 
 # Tests of one set follow each other; all sets at once are half a gigabyte.
-loaded = lru_cache(maxsize=2)(datasets.load)
+loaded = lru_cache(maxsize=2)(vt.datasets.load)
 
 
 def kind_of(name):
@@ -76,11 +73,11 @@ def test_the_limits_of_punches_are_elastic_layers_and_fast_ones():
     ratio = other["modulus_ratio"]
     other |= {"modulus_ratio": 1.0, "rate": 1.0}
     other |= {name: ratio * row[name] for name in ("size", "thickness")}
-    result = solve(KINDS["punch"].problem(other), until="pull-off", accuracy=row["accuracy"])
-    assert pull_off(result).force == pytest.approx(row["pull_off_stress"], rel=2e-3)
+    result = vt.solve(KINDS["punch"].problem(other), until="pull-off", accuracy=row["accuracy"])
+    assert vt.pull_off(result).force == pytest.approx(row["pull_off_stress"], rel=2e-3)
 
 
-@pytest.mark.parametrize("name", datasets.NAMES)
+@pytest.mark.parametrize("name", vt.datasets.NAMES)
 def test_rows_are_what_the_solver_gives(name):
     table = loaded(name)
     quick = np.flatnonzero(numbers(table, "steps") < 300)
@@ -88,8 +85,8 @@ def test_rows_are_what_the_solver_gives(name):
         (row,) = table.slice(place, 1).to_pylist()
         kind = KINDS[kind_of(name)]
         problem = kind.problem({column: row[column] for column in INPUTS[kind.name]})
-        result = solve(problem, until="pull-off", accuracy=row["accuracy"], estimate_error=False)
+        result = vt.solve(problem, until="pull-off", accuracy=row["accuracy"], estimate_error=False)
         force = row["pull_off_stress" if kind.name == "punch" else "pull_off_force"]
-        assert pull_off(result).force == pytest.approx(force, rel=row["force_error"], abs=0)
+        assert vt.pull_off(result).force == pytest.approx(force, rel=row["force_error"], abs=0)
         work = row["work_to_pull_off"]
-        assert work_to_pull_off(result) == pytest.approx(work, rel=row["work_error"], abs=0)
+        assert vt.work_to_pull_off(result) == pytest.approx(work, rel=row["work_error"], abs=0)

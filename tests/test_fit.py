@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+import viscotack as vt
 from reference_data import DMA
-from viscotack.errors import InputError
 from viscotack.identify import PullOff, RateSeries, identify_rates
 from viscotack.lab import fit, master_curve, read, read_dma
 from viscotack.lab.fit import errors as fit_errors
@@ -19,13 +19,6 @@ from viscotack.lab.fit.prony import fit_series
 from viscotack.lab.fit.report import issued
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
-from viscotack.model.materials import (
-    FractionalZener,
-    Prony,
-    RelaxationPowerLaw,
-    RetardationPowerLaw,
-    StandardSolid,
-)
 from viscotack.model.materials.library import published
 from viscotack.model.materials.shift import WLF
 
@@ -33,7 +26,7 @@ PDMS = published("pdms-10-1").material
 TRUTH = (1.458e6, 3.089e9, 0.2207, 0.01876)
 # The points of the thesis's DMA: 1 Hz, -130 to 20 C in steps of 10 K.
 CELSIUS = np.arange(-130, 21, 10.0)
-SMOOTH = RetardationPowerLaw(
+SMOOTH = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e9, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
 )
 WLF_PDMS = WLF.from_glass_transition(158.15).at_reference(293.15)
@@ -87,7 +80,9 @@ def test_intervals_and_draws_of_independent_errors_are_those_of_student():
 def test_best_finds_the_law_that_made_the_numbers():
     laws = {
         "power-law": PDMS,
-        "sls": StandardSolid(rubbery_modulus=1e6, glassy_modulus=2e7, tau0=1e-2, poisson_ratio=0.5),
+        "sls": vt.StandardSolid(
+            rubbery_modulus=1e6, glassy_modulus=2e7, tau0=1e-2, poisson_ratio=0.5
+        ),
     }
     for model, solid in laws.items():
         omega = OMEGA if model != "sls" else np.geomspace(1, 1e6, 12)
@@ -98,7 +93,7 @@ def test_best_finds_the_law_that_made_the_numbers():
 
 @pytest.mark.parametrize("apart, chosen", [(1.9, "fractional-zener"), (2.1, "prony")])
 def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, chosen):
-    solid = FractionalZener(
+    solid = vt.FractionalZener(
         rubbery_modulus=1e6, glassy_modulus=1e9, order=0.5, tau0=1e-3, poisson_ratio=0.5
     )
     tried = [
@@ -112,7 +107,7 @@ def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, 
 
 
 def test_a_series_that_follows_the_noise_gives_way_to_the_law_that_made_the_numbers():
-    solid = RelaxationPowerLaw(
+    solid = vt.RelaxationPowerLaw(
         rubbery_modulus=1e6, glassy_modulus=1e8, exponent=0.5, tau0=1e-3, poisson_ratio=0.5
     )
     # of few draws of noise a series is better still, and by less than 2
@@ -131,7 +126,7 @@ def test_a_series_that_follows_the_noise_gives_way_to_the_law_that_made_the_numb
 
 
 def test_the_plateau_of_a_series_with_single_arms_is_held_by_its_interval():
-    solid = Prony(rubbery_modulus=1e6, branches=[(3e6, 1e-3), (1e6, 0.3)], poisson_ratio=0.5)
+    solid = vt.Prony(rubbery_modulus=1e6, branches=[(3e6, 1e-3), (1e6, 0.3)], poisson_ratio=0.5)
     data = curve(1, material=solid, omega=np.geomspace(1e-2, 1e6, 40))
     ends = fit(data, poisson_ratio=0.5, model="prony", draws=5).interval("glassy_modulus")
     assert ends.low < ends.value < ends.high < 1.02 * ends.low
@@ -139,7 +134,7 @@ def test_the_plateau_of_a_series_with_single_arms_is_held_by_its_interval():
 
 
 def test_tests_over_time_find_the_constants_too():
-    solid = RetardationPowerLaw(
+    solid = vt.RetardationPowerLaw(
         rubbery_modulus=1e6, glassy_modulus=1e9, exponent=0.5, tau0=1e-3, poisson_ratio=0.5
     )
     t = np.geomspace(1e-12, 1e6, 40)
@@ -196,7 +191,7 @@ def test_a_series_without_a_plateau_has_a_bound_as_well(monkeypatch):
 
 
 def test_a_series_of_few_arms_is_found_with_few_arms():
-    solid = Prony(
+    solid = vt.Prony(
         rubbery_modulus=1e6, branches=[(3e6, 1e-4), (2e7, 1e-2), (1e6, 1.0)], poisson_ratio=0.4
     )
     data = curve(material=solid, omega=np.geomspace(0.1, 1e6, 40), noise=0.01)
@@ -237,7 +232,7 @@ def test_amplitudes_that_may_not_be_negative_are_the_best_there_are():
 
 def test_a_noisy_loss_modulus_does_not_spoil_the_storage_modulus():
     omega = np.geomspace(1, 1e8, 80)
-    solid = StandardSolid(rubbery_modulus=1e9, glassy_modulus=3e9, tau0=1e-4, poisson_ratio=0.4)
+    solid = vt.StandardSolid(rubbery_modulus=1e9, glassy_modulus=3e9, tau0=1e-4, poisson_ratio=0.4)
     modulus = solid.complex_modulus(omega)
     random = np.random.default_rng(0)
     loss = modulus.imag * np.exp(0.4 * random.normal(size=80) + 0.3)
@@ -314,7 +309,7 @@ def test_a_liquid_is_called_one():
     passport = issued(report, name="melt")
     assert passport.liquid
     series = [PullOff(speed, Measured(1e-3, 1e-5), preload=1e-3) for speed in (1e-6, 1e-5)]
-    with pytest.raises(InputError, match="no rubbery plateau.* rate series cannot be"):
+    with pytest.raises(vt.InputError, match="no rubbery plateau.* rate series cannot be"):
         identify_rates(RateSeries(series, material=passport, radius=5e-3))
     t = np.geomspace(1e-2, 1e4, 40)
     flowing = CreepTest(t, 1e-6 + 1e-7 * t, "E")
@@ -324,7 +319,7 @@ def test_a_liquid_is_called_one():
 
 
 def test_a_fractional_zener_solid_is_found_again():
-    solid = FractionalZener(
+    solid = vt.FractionalZener(
         rubbery_modulus=1e6, glassy_modulus=1e8, order=0.6, tau0=1.0, poisson_ratio=0.5
     )
     report = fit(

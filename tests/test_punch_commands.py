@@ -4,13 +4,8 @@ import numpy as np
 import pytest
 
 import stated
+import viscotack as vt
 from command_line import answered, refused
-from viscotack.model.geometry import Bonded
-from viscotack.model.problem import Problem
-from viscotack.model.problem.case_file import read_case
-from viscotack.model.problem.record import from_dict
-from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell
-from viscotack.result import columns, load
 
 PUNCH = ["simulate", "punch"]
 # The keys that the command line promises, with what they are in SI.
@@ -38,19 +33,19 @@ def test_a_test_with_a_history_and_another_law_is_stated_in_words(capsys):
     flags = "--size 20 --thickness 2 --cohesion 0.05 --modulus-ratio 0.1 --apart 15 --law dugdale"
     moves = ["--move", "approach 5 to depth 1", "--move", "dwell 2"]
     answer = answered([*PUNCH, *flags.split(), *moves, "--rate", "10", "--stiffness", "5"], capsys)
-    problem = from_dict(answer["problem"])
-    assert problem.moves == (Approach(speed=5.0, to=AtDepth(1.0)), Dwell(2.0))
-    assert problem.start == Apart(15.0) and problem.stiffness == 5.0
+    problem = vt.from_dict(answer["problem"])
+    assert problem.moves == (vt.Approach(speed=5.0, to=vt.AtDepth(1.0)), vt.Dwell(2.0))
+    assert problem.start == vt.Apart(15.0) and problem.stiffness == 5.0
     # the strength, with the overshoot of a parabola at the corner of a flat maximum
     assert answer["pull_off_stress"] == pytest.approx(1.0, abs=0.01)
     assert answer["energy_residual"] < 2e-3
 
 
 def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
-    problem = read_case(case_file)
-    assert isinstance(problem, Problem)
-    assert problem.body.base == Bonded(poisson_ratio=0.4)
-    assert problem.protocol.start == AtForce(2000.0)
+    problem = vt.read_case(case_file)
+    assert isinstance(problem, vt.Problem)
+    assert problem.body.base == vt.Bonded(poisson_ratio=0.4)
+    assert problem.protocol.start == vt.AtForce(2000.0)
     answer = answered([*PUNCH, case_file, "-o", tmp_path / "pad.npz"], capsys)
     for name, unit in KEYS.items():
         assert answer[f"{name}_{unit}"] > 0, name
@@ -59,9 +54,9 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
     assert answer["crack_speed_at_pull_off_m_per_s"] == pytest.approx(
         answer["crack_speed_at_pull_off"] * 1.5e-6 / 0.1
     )
-    result = load(tmp_path / "pad.npz")
+    result = vt.load(tmp_path / "pad.npz")
     assert result.problem == problem
-    table = columns(result)
+    table = vt.columns(result)
     names = ("time", "depth", "stress", "ligament", "crack_speed")
     tails = ("_s", "_m", "_Pa", "_m", "_m_per_s")
     assert list(table) == [*names, *(n + t for n, t in zip(names, tails, strict=True))]

@@ -9,14 +9,7 @@ from scipy.integrate import solve_ivp
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.errors import OutOfRange
-from viscotack.model.materials import StandardSolid
-from viscotack.model.problem import Groups
-from viscotack.model.protocol import AtDepth
-from viscotack.model.traction import Eyring, GentSchultz, LennardJones
 from viscotack.model.traction.growing import reference_speed
-from viscotack.result.edge_energy import edge_energy
-from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
 from viscotack.theory.crack.contact import (
     GrowingCracks,
@@ -25,12 +18,12 @@ from viscotack.theory.crack.contact import (
 )
 from viscotack.theory.crack.steady import _grown, _memory, _mesh, _start, comparison
 
-REST = LennardJones(1.0, 1.0)
-POWER = GentSchultz(1, 1, 1.0, 0.5)
+REST = vt.LennardJones(1.0, 1.0)
+POWER = vt.GentSchultz(1, 1, 1.0, 0.5)
 
 
 def test_without_growth_the_crack_is_that_of_the_law_at_rest():
-    grown, rest = SteadyCrack(SOLID, GentSchultz(1, 1, 1e8, 1.0)), SteadyCrack(SOLID, REST)
+    grown, rest = SteadyCrack(SOLID, vt.GentSchultz(1, 1, 1e8, 1.0)), SteadyCrack(SOLID, REST)
     speed = np.array([0.1, 10.0])
     np.testing.assert_allclose(grown.amplification(speed), rest.amplification(speed), rtol=2e-4)
     np.testing.assert_array_equal(grown.amplification(-speed), rest.amplification(-speed))
@@ -41,7 +34,7 @@ def test_a_little_growth_adds_the_heat_of_the_crack_at_rest():
     rest = SteadyCrack(ELASTIC, REST).at(0.0)
     slope, x = np.diff(rest.gap) / np.diff(rest.position), rest.gap
     energy = np.where(x > 1, REST.energy(x), -1.0)
-    for law in (GentSchultz(1, 1, 1.0, 0.4), Eyring(1, 1, 0.01, 0.1)):
+    for law in (vt.GentSchultz(1, 1, 1.0, 0.4), vt.Eyring(1, 1, 0.01, 0.1)):
         speed = 1e-4
         heat = float(np.sum(law.growth(speed * slope) * np.diff(energy)))
         found = SteadyCrack(ELASTIC, law).amplification(speed)
@@ -75,12 +68,12 @@ def test_speeds_and_amplifications_are_inverse_and_do_not_depend_on_units():
     crack = SteadyCrack(SOLID, POWER)
     gamma = np.array([1.01, 2.0, 20.0])
     np.testing.assert_allclose(crack.amplification(crack.speed(gamma)), gamma, rtol=1e-6)
-    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.02, poisson_ratio=0.5)
-    law = GentSchultz(0.1, 1e-7, 1e-7 / 0.02, 0.5)
+    solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.02, poisson_ratio=0.5)
+    law = vt.GentSchultz(0.1, 1e-7, 1e-7 / 0.02, 0.5)
     assert SteadyCrack(solid, law).amplification(2.0) == pytest.approx(
         crack.amplification(2.0), rel=1e-9
     )
-    with pytest.raises(OutOfRange, match="supports laws of the gap only"):
+    with pytest.raises(vt.OutOfRange, match="supports laws of the gap only"):
         comparison.compared(crack, 1.0)
 
 
@@ -127,16 +120,18 @@ _vanished.terminal = True
 @pytest.mark.parametrize(
     ("solid", "tabor", "depth", "rate", "law", "within"),
     [
-        (ELASTIC, 3.24, 10.0, 1.0, GentSchultz(1, 1, 1.0, 0.5), 0.03),
-        (SOLID, 10.0, 60.0, 30.0, Eyring(1, 1, 0.1, 0.2), 0.015),
+        (ELASTIC, 3.24, 10.0, 1.0, vt.GentSchultz(1, 1, 1.0, 0.5), 0.03),
+        (SOLID, 10.0, 60.0, 30.0, vt.Eyring(1, 1, 0.1, 0.2), 0.015),
     ],
     ids=["elastic", "bonds"],
 )
 def test_simulation_and_crack_agree(solid, tabor, depth, rate, law, within):
-    groups = Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate, traction=law)
+    groups = vt.Groups(
+        tabor=tabor, material=solid, start=vt.AtDepth(depth), rate=rate, traction=law
+    )
     answer = vt.crack_contact(groups)
     result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
-    simulated = pull_off_force(result)
+    simulated = vt.pull_off_force(result)
     assert answer.pull_off_force == pytest.approx(simulated, rel=within, abs=0)
     assert abs(answer.pull_off_force / simulated - 1) < answer.band
     # growth matters: the law at rest has another force
@@ -146,26 +141,28 @@ def test_simulation_and_crack_agree(solid, tabor, depth, rate, law, within):
 
 @lru_cache(maxsize=4)
 def _at_rest(solid, tabor, depth, rate):
-    groups = Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate)
+    groups = vt.Groups(tabor=tabor, material=solid, start=vt.AtDepth(depth), rate=rate)
     return vt.crack_contact(groups).pull_off_force
 
 
 def test_solve_hands_a_short_range_over_to_the_crack_with_its_growth():
-    law = GentSchultz(1, 1, 1e3, 0.5)
-    groups = Groups(tabor=500.0, material=ELASTIC, start=AtDepth(2000.0), rate=10.0, traction=law)
+    law = vt.GentSchultz(1, 1, 1e3, 0.5)
+    groups = vt.Groups(
+        tabor=500.0, material=ELASTIC, start=vt.AtDepth(2000.0), rate=10.0, traction=law
+    )
     result = vt.solve(groups)
     assert result.method == "crack contact"
-    assert pull_off_force(result) > 1.2
+    assert vt.pull_off_force(result) > 1.2
 
 
 def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed(tmp_path):
-    law = GentSchultz(1, 1, 10.0, 0.5)
-    groups = Groups(tabor=10.0, material=SOLID, start=AtDepth(60.0), rate=30.0, traction=law)
+    law = vt.GentSchultz(1, 1, 10.0, 0.5)
+    groups = vt.Groups(tabor=10.0, material=SOLID, start=vt.AtDepth(60.0), rate=30.0, traction=law)
     problem = groups.in_si(
         radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.1, time_unit=0.1, poisson_ratio=0.5
     )
     result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False, fields=True)
-    found = edge_energy(result)
+    found = vt.edge_energy(result)
     speed = found.speed / result.scales.edge_speed * groups.tabor**2
     steady = np.asarray(SteadyCrack(SOLID, law).amplification(speed))
     later = found.amplification > 3
@@ -187,7 +184,7 @@ def test_the_reference_speed_reproduces_the_given_growth():
     growth = np.array([1e-9, 1e-3, 0.3, 20.0])
     for n in (0.05, 0.4, 1.0):
         for G, v0 in zip(growth, reference_speed(growth, 3.0, n), strict=True):
-            law = GentSchultz(1, 1, float(v0), n)
+            law = vt.GentSchultz(1, 1, float(v0), n)
             assert float(law.growth(3.0)) == pytest.approx(G, rel=1e-9, abs=0)
     assert np.isinf(reference_speed(0.0, 3.0, 0.4))
 
@@ -205,7 +202,7 @@ def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own(lattice):
     given = {"radius": np.full(2, 4.0), "rate": np.full(2, 5.0), "tabor": np.full(2, 20.0)}
     together = recede(lattice.edges(v0, n), profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
     for i in range(2):
-        crack = SteadyCrack(SOLID, GentSchultz(1, 1, float(v0[i]), float(n[i])))
+        crack = SteadyCrack(SOLID, vt.GentSchultz(1, 1, float(v0[i]), float(n[i])))
         one = {name: values[:1] for name, values in given.items()}
         alone = recede(crack, profile_of(vt.Sphere(1.0)), **one).force.min()
         assert together[i] == pytest.approx(alone, rel=0.01, abs=0)
