@@ -15,14 +15,11 @@ from pathlib import Path
 import httpx
 
 from viscotack import InputError
-from viscotack.app.api import application
 from viscotack.app.cli import main
-from viscotack.app.engine.jobs import Engine
 from viscotack.app.operations import ask, operation
 from viscotack.app.operations.options import Contact, Rows, flag_of, option_of
 from viscotack.app.operations.parts.json_data import plain
 from viscotack.files.toml import toml_value
-from viscotack.model.problem.nouns import own_nouns
 
 # What two runs of one question do not share.
 OF_A_RUN = ("wall_time_s",)
@@ -36,8 +33,6 @@ class Question:
 
     word: str
     given: dict = field(default_factory=dict)
-    # files with nouns of the user's own
-    own: tuple = ()
 
     @property
     def kind(self):
@@ -61,8 +56,7 @@ def refused(words, field=""):
 
 def by_python(question):
     try:
-        also = own_nouns(question.own)
-        return Told(without_times(plain(ask(question.word, also=also, **question.given).record())))
+        return Told(without_times(plain(ask(question.word, **question.given).record())))
     except FileNotFoundError as error:
         return refused(f"there is no file {error.filename}")
     except (InputError, OSError) as error:
@@ -78,8 +72,7 @@ def by_study(question):
     lines += [f"{name} = {toml_value(value)}" for name, value in question.given.items()]
     study = Path("asked.toml")
     study.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    own = [part for path in question.own for part in ("--with", path)]
-    told = by_arguments(["study", study, "--json", *own])
+    told = by_arguments(["study", study, "--json"])
     return Told(told.record, told.refused.removeprefix(f"{study}: "))
 
 
@@ -125,7 +118,6 @@ def arguments(question):
             places += several
         else:
             flags += [part for each in several for part in (flag_of(name, option), each)]
-    flags += [part for path in question.own for part in ("--with", path)]
     return [*word, *flags, "--json", *(["--"] if places else []), *places]
 
 
@@ -146,40 +138,40 @@ def problem_flags(option, value):
     return ([] if option.spelling == "flags" else [value["indenter"]]), flags
 
 
-class Http:
-    """A client of a server in this process, whose tasks have processes."""
+class Client:
+    """Requests to an application in this process, one after the other."""
 
-    def __init__(self, own=()):
-        self.loop = asyncio.new_event_loop()
-        app = application(Engine(own=[str(each) for each in own]))
-        self.alive = app.router.lifespan_context(app)
+    def __init__(self, app):
+        self.app, self.loop = app, asyncio.new_event_loop()
         transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
         self.client = httpx.AsyncClient(transport=transport, base_url="http://localhost")
-        self.wait(self.alive.__aenter__())
 
     def wait(self, what):
         return self.loop.run_until_complete(what)
 
-    def __call__(self, path, **more):
-        return self.wait(self.client.post(path, timeout=600, **more))
-
-    def get(self, path):
-        return self.wait(self.client.get(path))
+    def __call__(self, method, path, **more):
+        return self.wait(self.client.request(method, path, timeout=600, **more))
 
     def send(self, names):
         """Send files; return the query of a request that names them."""
         files = [("files", (str(name), Path(name).read_bytes())) for name in names]
-        return self("/api/files", files=files).json() if files else {}
+        return self("POST", "/api/files", files=files).json() if files else {}
 
-    def close(self):
-        self.wait(self.client.aclose())
-        self.wait(self.alive.__aexit__(None, None, None))
-        self.loop.close()
+
+@contextlib.contextmanager
+def served(client):
+    """Yield a client while its application runs, with the processes of its tasks."""
+    alive = client.app.router.lifespan_context(client.app)
+    client.wait(alive.__aenter__())
+    yield client
+    client.wait(client.client.aclose())
+    client.wait(alive.__aexit__(None, None, None))
+    client.loop.close()
 
 
 def by_http(question, http):
     path = f"/api/{question.word.replace(' ', '/')}"
-    return told(http(path, json=question.given, params=http.send(files_of(question.given))))
+    return told(http("POST", path, json=question.given, params=http.send(files_of(question.given))))
 
 
 def told(response):

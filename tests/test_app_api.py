@@ -1,13 +1,12 @@
 """The API in its own process: answers, jobs, limits, files that are sent, and who may ask."""
 
-import asyncio
 import json
 from multiprocessing import active_children
 
-import httpx
 import pytest
 from fastapi import FastAPI
 
+from front_ends import Client, served
 from viscotack.app.api import application
 from viscotack.app.api.guard import guard
 from viscotack.app.engine.jobs import Engine, Limits
@@ -16,19 +15,8 @@ from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
 OVER = ("done", "refused", "failed", "cancelled")
 
 
-class Asking:
-    """Questions to an application, one after the other."""
-
-    def __init__(self, app):
-        self.loop = asyncio.new_event_loop()
-        transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
-        self.client = httpx.AsyncClient(transport=transport, base_url="http://localhost")
-
-    def wait(self, what):
-        return self.loop.run_until_complete(what)
-
-    def __call__(self, method, path, **more):
-        return self.wait(self.client.request(method, path, timeout=120, **more))
+class Asking(Client):
+    """A client that begins jobs and waits for their ends."""
 
     def job(self, kind, outputs=(), **asked):
         params = {"outputs": list(outputs)}
@@ -49,14 +37,9 @@ def engine():
 
 @pytest.fixture(scope="module")
 def ask(engine):
-    app = application(engine)
-    found = Asking(app)
-    alive = app.router.lifespan_context(app)
-    found.wait(alive.__aenter__())
-    yield found
-    found.wait(alive.__aexit__(None, None, None))
+    with served(Asking(application(engine))) as client:
+        yield client
     assert active_children() == []
-    found.loop.close()
 
 
 @pytest.mark.parametrize("tables", [FIRST, EXAMPLES["A flat punch on a soft layer"]])
@@ -144,7 +127,7 @@ def behind():
     def make(**rules):
         app = FastAPI()
         app.add_api_route("/{path:path}", lambda: {}, methods=["GET", "POST"])
-        made.append(Asking(guard(app, **rules)))
+        made.append(Client(guard(app, **rules)))
         return made[-1]
 
     yield make

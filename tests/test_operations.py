@@ -1,8 +1,10 @@
 """Operations: declared once, and answered alike by every door."""
 
 import contextlib
+import json
 import os
 import re
+import shlex
 import shutil
 from pathlib import Path
 
@@ -12,15 +14,18 @@ import pytest
 import tack_files
 from front_ends import (
     OF_THE_SHELL,
-    Http,
+    Client,
     Question,
     by_command,
     by_python,
     by_study,
     run,
+    served,
     through_all,
 )
 from stated import PUNCH, SPHERE
+from viscotack.app.api import application
+from viscotack.app.engine.jobs import Engine
 from viscotack.app.operations import operation, operations
 from viscotack.app.operations.flags import FLAGS
 from viscotack.app.operations.options import Contact
@@ -148,9 +153,8 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.fixture(scope="module")
 def http():
-    client = Http()
-    yield client
-    client.close()
+    with served(Client(application(Engine()))) as client:
+        yield client
 
 
 def agree(question, found):
@@ -217,6 +221,28 @@ def test_all_doors_answer_what_takes_seconds_alike(word, folder, http):
     found = through_all(question, http)
     assert not found["Python"].refused
     agree(question, found)
+
+
+@pytest.mark.parametrize("page", ["operations.md", "api.md"])
+def test_requests_of_the_pages_are_answered(page, folder, http):
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    (case,) = re.findall(r"```json\n(.*?)```", (ROOT / "docs/api.md").read_text("utf-8"), re.S)
+    (folder / "case.json").write_text(case)
+    text = (ROOT / "docs" / page).read_text("utf-8")
+    lines = [x for x in re.findall(r"^\$ curl (.*)$", text, re.M) if "/jobs/" not in x]
+    assert len(lines) > 2
+    id = ""
+    for line in lines:
+        words = shlex.split(line)
+        (url,) = (word for word in words if word.startswith("localhost"))
+        path = url.removeprefix("localhost:8642").replace("files=ID", f"files={id}")
+        if "-F" in words:
+            id = http.send([words[words.index("-F") + 1].removeprefix("files=@")])["files"]
+            continue
+        body = words[words.index("-d") + 1]
+        body = Path(body[1:]).read_text("utf-8") if body.startswith("@") else body
+        response = http("POST", path, json=json.loads(body))
+        assert response.status_code == 200, response.text
 
 
 def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, monkeypatch):
