@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from command_line import exit_status
+from command_line import answered, exit_status, refused
 from viscotack.lab.tack import Measured, survey
 from viscotack.lab.tack.repeats import jkr_work, speed_table
 from viscotack.theory import jkr
@@ -53,6 +53,17 @@ def test_the_standard_error_of_the_exponent_is_that_of_a_straight_line(cycle):
     assert found.exponent is not None
     assert found.exponent.value == pytest.approx(line[0])
     assert found.exponent.uncertainty == pytest.approx(np.sqrt(spread[0, 0]))
+
+
+def test_compliance_and_signs_are_said_by_flags(capsys):
+    command, depths = ["test", "read", RIG / "lens_1000_um_s.csv"], []
+    for more in ([], ["--compliance", "200 um/N"]):
+        (test,) = answered([*command, *more], capsys)["tests"]
+        (cycle,) = test["cycles"]
+        depths.append(cycle["depth_at_pull_off_m"])
+    assert depths[1] - depths[0] == pytest.approx(200e-6 * cycle["pull_off_force_N"], rel=0.1)
+    for flag, wrong in (("--into", "up"), ("--compression", "-")):
+        assert flag in refused([*command, flag, wrong], capsys)
 
 
 def test_the_work_of_jkr_is_that_of_its_pull_off():
