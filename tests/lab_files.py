@@ -7,6 +7,7 @@ names and numbers are made up. A file is named after its format.
 from pathlib import Path
 
 import numpy as np
+from numpy.testing import assert_allclose
 
 LAYOUTS = Path(__file__).parent / "data" / "layouts" / "material"
 CELSIUS = (-40.0, -30.0, -20.0)
@@ -28,3 +29,18 @@ TEXTS = {
     for path in sorted(LAYOUTS.iterdir())
     if path.suffix in (".csv", ".txt", ".json")
 }
+
+
+def assert_the_film(sweeps, kind="E"):
+    """Compare sweeps with what every reader must find."""
+    assert sweeps.kind == kind
+    assert_allclose(sweeps.temperature, TEMPERATURE, rtol=1e-14)
+    assert_allclose(sweeps.angular_frequency, OMEGA, rtol=1e-10)
+    assert_allclose(sweeps.storage, PASCAL[0], rtol=1e-10)
+    assert_allclose(sweeps.loss, PASCAL[1], rtol=1e-10)
+    assert_allclose(sweeps.complex_modulus.imag, PASCAL[1], rtol=1e-10)
+    assert sweeps.sweep.tolist() == [0] * 4 + [1] * 4 + [2] * 4
+
+
+def notes(test):
+    return "; ".join(test.source.notes)

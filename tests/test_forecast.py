@@ -65,18 +65,6 @@ def test_prediction_and_simulation_agree(changed):
     assert np.median(off) < 0.03 * row["travel_to_pull_off"]
 
 
-def test_intervals_hold_the_value_and_grow_with_the_confidence():
-    few, many = (vt.predict(sphere(), confidence=c) for c in (0.5, 0.95))
-    for answer in (few, many):
-        assert answer.interval[0] < answer.pull_off_force < answer.interval[1]
-        assert answer.work_interval[0] < answer.work_to_pull_off < answer.work_interval[1]
-    assert few.pull_off_force == many.pull_off_force and few.confidence == 0.5
-    assert many.interval[0] < few.interval[0] and few.interval[1] < many.interval[1]
-    assert (
-        many.work_interval[1] - many.work_interval[0] > few.work_interval[1] - few.work_interval[0]
-    )
-
-
 # Units and starts ----------------------------------------------------------------------------
 @pytest.mark.parametrize("start", [vt.AtForce(5.0), vt.AtRadius(2.0)])
 def test_a_start_by_force_or_radius_is_one_by_depth(start):
@@ -226,20 +214,12 @@ def refused(problem, **options):
         ({"moves": (vt.Dwell(3.0),)}, "Dwell"),
         ({"stiffness": 2.0}, "stiffness of 2"),
         ({"start": vt.Apart(9.0)}, "start is apart"),
+        # the intervals of tiers of other laws are those of tests/test_tiers.py
+        ({"tabor": 2.0, "traction": vt.Dugdale(1.0, 1.0, fall=0.1)}, "steepest fall is 19.96"),
     ],
 )
-def test_other_tests_are_refused(changed, name):
+def test_other_tests_and_steep_laws_are_refused(changed, name):
     assert name in refused(replace(sphere(), **changed))
-
-
-def test_another_law_is_answered_by_a_theory_with_its_band():
-    law = vt.Exponential(1.0, 1.0, 1.0)
-    case = replace(sphere(tabor=9.0, rate=1.0), traction=law)
-    answer = vt.predict(case)
-    force = vt.pull_off_force(vt.solve(case, until="pull-off", estimate_error=False))
-    assert answer.interval[0] <= force <= answer.interval[1]
-    steep = replace(case, tabor=2.0, traction=vt.Dugdale(1.0, 1.0, fall=0.1))
-    assert "steepest fall is 19.96" in refused(steep)
 
 
 def test_impossible_questions_are_refused():

@@ -9,8 +9,7 @@ import pytest
 from melts import CHAMBER, LAW
 from stated import case_text
 from viscotack.app.cli import main
-from viscotack.model.materials import Prony, StandardSolid
-from viscotack.model.materials.exchange import CODES
+from viscotack.model.materials import StandardSolid
 from viscotack.model.materials.library import published
 from viscotack.model.materials.passport_file import read_passport, write_passport
 
@@ -71,39 +70,6 @@ def test_from_file_to_pull_off_in_two_commands(lab, capsys):
     true = json.loads(out)
     assert fitted["pull_off_force"] == pytest.approx(true["pull_off_force"], rel=0.01)
     assert fitted["pull_off_force_N"] == pytest.approx(4.6e-3, rel=0.03)
-
-
-def test_a_power_law_becomes_a_series_with_a_stated_error(lab, capsys):
-    printed('material convert pdms-10-1 --prony --frequencies "1 mHz,1 MHz" -o x.toml', capsys)
-    series = read_passport("x.toml")
-    assert isinstance(series.material, Prony)
-    assert "error" in series.origin.notes[-1]
-    omega = 2 * np.pi * np.geomspace(1e-3, 1e6, 100)
-    exact = published("pdms-10-1").material.complex_modulus(omega)
-    assert np.max(np.abs(series.material.complex_modulus(omega) / exact - 1)) < 3e-4
-
-
-@pytest.mark.parametrize("code", CODES)
-def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
-    printed(
-        f'material export pdms-10-1 --to {code} --frequencies "1 Hz,1 MHz" --pressure-unit MPa '
-        '--bulk-modulus "2 GPa" -o card.txt',
-        capsys,
-    )
-    text = (lab / "card.txt").read_text()
-    assert "units: pressure MPa, time s" in text and "largest error" in text
-    assert ("*TRS" in text) == (code == "abaqus") and ("TB,SHIFT" in text) == (code == "ansys")
-    solid = published("pdms-10-1").material
-    if code == "comsol":
-        _, G, time = np.loadtxt(text.splitlines(), comments="%").T
-        arms = tuple(zip(3e6 * G, time, strict=True))
-        back = Prony(rubbery_modulus=solid.rubbery_modulus, branches=arms, poisson_ratio=0.5)
-    else:
-        printed(f"material convert card.txt --from {code} -o back.toml", capsys)
-        back = read_passport("back.toml").material
-    omega = 2 * np.pi * np.geomspace(1, 1e6, 50)
-    exact = solid.complex_modulus(omega)
-    assert np.max(np.abs(back.complex_modulus(omega) / exact - 1)) < 3.1e-4
 
 
 def trios_files(folder):

@@ -7,19 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import lab_files
+from lab_files import assert_the_film, notes
 from viscotack.lab import read, read_dma, read_shifts
 from viscotack.lab.formats.headings import recognise
-
-
-def notes(test):
-    return "; ".join(test.source.notes)
-
-
-def assert_the_film(sweeps, rtol=1e-10):
-    assert_allclose(sweeps.temperature, lab_files.TEMPERATURE, rtol=1e-14)
-    assert_allclose(sweeps.angular_frequency, lab_files.OMEGA, rtol=1e-10)
-    assert_allclose(sweeps.storage, lab_files.PASCAL[0], rtol=rtol)
-    assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=rtol)
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 import lab_files
+from lab_files import assert_the_film, notes
 from reference_data import DMA
 from viscotack.errors import InputError
-from viscotack.lab import (
-    read,
-    read_dma,
-    read_shifts,
-)
+from viscotack.lab import read, read_dma, read_shifts
 from viscotack.lab.sweeps import grouped
 
 
@@ -19,24 +16,10 @@ def table(*rows, names="f, E', E'', T", units="Hz, MPa, MPa, C"):
     return "\n".join([names, units, *rows]) + "\n"
 
 
-def notes(read):
-    return "; ".join(read.source.notes)
-
-
-def assert_the_invented_film(sweeps, kind="E"):
-    assert sweeps.kind == kind
-    assert_allclose(sweeps.temperature, lab_files.TEMPERATURE, rtol=1e-14)
-    assert_allclose(sweeps.angular_frequency, lab_files.OMEGA, rtol=1e-11)
-    assert_allclose(sweeps.storage, lab_files.PASCAL[0], rtol=1e-14)
-    assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=1e-14)
-    assert_allclose(sweeps.complex_modulus.imag, lab_files.PASCAL[1], rtol=1e-14)
-    assert sweeps.sweep.tolist() == [0] * 4 + [1] * 4 + [2] * 4
-
-
 @pytest.mark.parametrize("name", lab_files.TEXTS)
 def test_every_text_format_gives_the_same_numbers(file, name):
     sweeps = read_dma(file(lab_files.TEXTS[name]))
-    assert_the_invented_film(sweeps)
+    assert_the_film(sweeps)
     assert sweeps.source.format == name.partition("_")[0]
     assert f"detected format: {sweeps.source.format}" in sweeps.source.notes
     assert len(sweeps.source.sha256) == 64
@@ -45,7 +28,7 @@ def test_every_text_format_gives_the_same_numbers(file, name):
 def test_a_workbook_gives_the_same_numbers():
     pytest.importorskip("openpyxl")
     sweeps = read_dma(lab_files.LAYOUTS / "workbook.xlsx")
-    assert_the_invented_film(sweeps)
+    assert_the_film(sweeps)
     assert sweeps.source.format == "workbook"
 
 
@@ -68,7 +51,7 @@ def test_sweeps_side_by_side_in_a_workbook_are_apart(name, tmp_path):
         cells = line.split(",")
         book.active.append([float(x) if x[:1].isdigit() else x for x in cells])
     book.save(tmp_path / "film.xlsx")
-    assert_the_invented_film(read_dma(tmp_path / "film.xlsx"))
+    assert_the_film(read_dma(tmp_path / "film.xlsx"))
 
 
 def test_the_published_sweeps_are_the_same_as_text_and_as_workbook():
@@ -231,7 +214,7 @@ def test_an_amplitude_sweep_is_not_taken_for_a_frequency_sweep(file):
     begin, steps = lab_files.TEXTS["trios_csv"].decode("latin-1").split("\n\n", 1)
     text = "\n".join([begin, "", *extra, "", steps])
     sweeps = read_dma(file(text.encode("latin-1")))
-    assert_the_invented_film(sweeps)
+    assert_the_film(sweeps)
     assert "an amplitude or time sweep?" in notes(sweeps)
 
 

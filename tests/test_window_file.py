@@ -21,7 +21,6 @@ from viscotack.model.materials import Passport, write_passport
 from viscotack.model.materials.shift import WLF
 from viscotack.plot.window import draw_window
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "window" / "kinetic_stamp.toml"
 CONTACT = """
 [{name}.material]
 model = "elastic"
@@ -48,23 +47,6 @@ SMALL = "".join(
         CONTACT.format(name="receiver", work="80 mJ/m^2"),
     ]
 )
-
-
-@pytest.mark.slow
-def test_the_example_picks_fast_and_prints_slowly(tmp_path):
-    text = EXAMPLE.read_text()
-    for wide, few in (
-        ('"1 um/s..10 mm/s"', '["1 um/s", "10 mm/s"]'),
-        ('["200 uN", "1 mN", "5 mN"]', '"1 mN"'),
-    ):
-        assert wide in text
-        text = text.replace(wide, few)
-    (tmp_path / "stamp.toml").write_text(text)
-    record = ask("window", file=str(tmp_path / "stamp.toml")).record()
-    assert [cell["word"] for cell in record["cells"]] == ["print", "pick"]
-    (donor,) = (x for x in record["critical_speeds"] if x["base"] == "donor")
-    # docs/pick_and_print.md
-    assert donor["critical_speed_m_per_s"] == pytest.approx(15.3e-6, rel=0.02)
 
 
 @pytest.mark.parametrize(
