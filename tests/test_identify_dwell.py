@@ -12,6 +12,7 @@ import tack_files
 import viscotack as vt
 from rate_tests import GAP, LENS, PRELOAD, RADIUS, RUBBER, WORK, holds
 from viscotack import identify
+from viscotack.app.operations.parts.records import forecast_rows
 from viscotack.identify.contact_time import check_relaxed
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured, survey
@@ -176,9 +177,11 @@ def test_speeds_and_dwells_together_give_edge_law_and_growth_in_time(growth):
     assert (fit.ageing.chance < 1e-4) == bool(growth)
     assert fit.given.middle_time == pytest.approx(100) and not fit.ageing.together
     assert fit.describes_tests and not fit.unexplained
-    forecast = identify.forecast_edge(fit, [3e-5])
-    assert holds(forecast, edge_law.pull_off_force([3e-5], work_of_adhesion=0.06, **EDGE))
-    assert forecast.contact_time == pytest.approx([100])
+    if growth:
+        forecast = identify.forecast_edge(fit, [3e-5])
+        assert holds(forecast, edge_law.pull_off_force([3e-5], work_of_adhesion=0.06, **EDGE))
+        (row,) = forecast_rows(forecast)
+        assert row["contact_time_s"] == pytest.approx(100)
 
 
 @pytest.mark.slow
@@ -257,7 +260,7 @@ def test_without_an_approach_the_time_in_contact_is_unknown():
         identify.contact_time.tests_by_dwell([bare])
 
 
-def test_files_of_several_speeds_and_dwells_give_a_study_whose_forecast_states_its_time(files):
+def test_files_of_several_speeds_and_dwells_give_the_growth_beside_the_edge_law(files):
     names = []
     for speed in (1, 2, 4, 8):
         for number in (0, 4):
@@ -272,13 +275,9 @@ def test_files_of_several_speeds_and_dwells_give_a_study_whose_forecast_states_i
             names.append(f"{speed}_{number}.csv")
             np.savetxt(names[-1], table, delimiter=",", header=head, comments="")
     about = {"radius": "5 mm", "contact_modulus": "1 MPa", "preload": "2 mN"}
-    answer = vt.ask("identify edge", files=names, **about)
-    answer.files["output"]("edge.toml")
-    found = answer.record()
+    found = vt.ask("identify edge", files=names, **about).record()
     middle = 0.1 * (1 + 0.1 * np.log(found["ageing"]["middle_time_s"] / 0.01))
     grown = found["ageing"]["growth_per_decade"]
     # forces of these files are proportional to the work, those of an edge law nearly so
     assert grown == pytest.approx(0.01 * np.log(10) / middle, rel=0.1)
     assert found["ageing"]["separate"] and len(found["series"]) == 8
-    forecast = vt.ask("forecast", study="edge.toml", speed=["50 um/s"]).record()["forecast"]
-    assert forecast[0]["contact_time_s"] == pytest.approx(found["ageing"]["middle_time_s"])

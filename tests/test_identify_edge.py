@@ -117,7 +117,8 @@ def test_what_an_edge_law_does_not_know_is_refused():
 
 def test_the_criterion_prefers_the_model_that_made_the_forces():
     rubber = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
-    fit = identify_rates(series(pulled(SPEEDS), material=rubber))
+    some = SPEEDS[[0, 2, 3, 5]]
+    fit = identify_rates(series(pulled(some), speeds=some, material=rubber))
     assert fit.edge is not None and fit.edge.criterion < fit.criterion - 6
 
 

@@ -154,15 +154,24 @@ def test_a_series_without_information_is_refused(change, name):
         replace(series, **unloaded)
 
 
-def test_files_of_a_rig_give_the_interface(tmp_path, capsys):
-    command = ["identify", "rates", *LENS, "--material", "pdms-10-1", "--radius", "5.19 mm"]
+# A solid like that of the files is soon fitted; theirs takes seconds and gives their interface.
+LIKE = '[material]\nmodel = "sls"\nrubbery_modulus = "1.458 MPa"\nglassy_modulus = "4.374 MPa"\n'
+LIKE += 'tau0 = "1 ms"\npoisson_ratio = 0.5\n'
+
+
+@pytest.mark.parametrize(
+    ("material", "near"), [(LIKE, 0.5), pytest.param("pdms-10-1", 0.08, marks=pytest.mark.slow)]
+)
+def test_files_of_a_rig_give_the_interface(material, near, tmp_path, capsys):
+    command = ["identify", "rates", *LENS, "--material", material, "--radius", "5.19 mm"]
     picture = tmp_path / "rates.png"
     assert exit_status([*command, "--preload", "1.5 mN", "--json", "--plot", picture]) == 0
     found = json.loads(capsys.readouterr().out)
     speeds = [row["speed_m_s"] for row in found["series"]]
     assert speeds == pytest.approx([1e-6, 3e-5, 1e-3], rel=0.01)
-    assert found["work_of_adhesion_J_m2"] == pytest.approx(WORK, rel=0.08)
-    assert found["equilibrium_gap_m"] == pytest.approx(GAP, rel=0.35)
+    assert found["work_of_adhesion_J_m2"] == pytest.approx(WORK, rel=near)
+    if material == "pdms-10-1":
+        assert found["equilibrium_gap_m"] == pytest.approx(GAP, rel=0.35)
     assert picture.stat().st_size > 10_000
     assert exit_status([*command, "--work-of-adhesion", "152 mJ/m2"]) == 2
 
