@@ -1,6 +1,7 @@
 """The command line as tests call it."""
 
 import json
+import shlex
 
 import pytest
 
@@ -8,9 +9,10 @@ from viscotack.app.cli import main
 
 
 def exit_status(arguments):
-    """Return the exit status of a command; its words may be anything that has a text."""
+    """Return the exit status of a line, or of words that may be anything that has a text."""
+    words = shlex.split(arguments) if isinstance(arguments, str) else map(str, arguments)
     with pytest.raises(SystemExit) as end:
-        main([str(word) for word in arguments])
+        main(list(words))
     return end.value.code or 0
 
 

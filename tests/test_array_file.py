@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
+from command_line import exit_status
 from picture_units import in_si
-from viscotack.app.cli import application
 from viscotack.design import read_array
 from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array
 from viscotack.design.holding import held_load
@@ -76,9 +75,7 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
 
 
 def test_the_command_writes_tables_and_a_picture(small):
-    line = ["array", "small.toml", "--csv", "f.csv", "--pads", "p.csv", "--plot", "a.svg"]
-    done = CliRunner().invoke(application(), line)
-    assert done.exit_code == 0, done.output
+    assert exit_status("array small.toml --csv f.csv --pads p.csv --plot a.svg") == 0
     rows = list(csv.DictReader(Path("p.csv").read_text().splitlines()))
     assert [row["order"] for row in rows] == ["3", "1", "2"]
     curve = csv.DictReader(Path("f.csv").read_text().splitlines())

@@ -1,7 +1,6 @@
 """Tests of force tables, the controller of a release, its simulated rig, C and FMU."""
 
 import ctypes
-import json
 import subprocess
 import zipfile
 from dataclasses import replace
@@ -10,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
-from viscotack.app.cli import application
+from command_line import answered
 
 PAD = vt.Problem(
     vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5),
@@ -118,16 +116,14 @@ def test_what_cannot_be_is_refused(table, make, words):
         make(table)
 
 
-def test_the_command_writes_all_and_lets_go(tmp_path):
+def test_the_command_writes_all_and_lets_go(tmp_path, capsys):
     flags = [x for name, value in SMALL.items() for x in (f"--{name}", str(value))]
     names = ("contact.h", "speeds.csv", "forces.csv", "ticks.csv", "control.png")
     kinds = ("c", "csv", "forces", "ticks", "plot")
     for kind, name in zip(kinds, names, strict=True):
         flags += [f"--{kind}", str(tmp_path / name)]
-    flags += ["--wanted", "4.8 mN", "--stiffness", "300 N/m", "--json"]
-    done = CliRunner().invoke(application(), ["control", str(LENS), *flags])
-    assert done.exit_code == 0, done.output
-    release = json.loads(done.stdout)["release"]
+    flags += ["--wanted", "4.8 mN", "--stiffness", "300 N/m"]
+    release = answered(["control", LENS, *flags], capsys)["release"]
     assert release["pull_off_force_N"] == pytest.approx(4.8e-3, rel=0.03)
     speeds, forces = (
         np.genfromtxt(tmp_path / name, delimiter=",", names=True)

@@ -8,12 +8,11 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
+from command_line import exit_status
 from picture_units import in_si
 from solids import creep_power_law
-from viscotack.app.cli import application
 from viscotack.app.operations import ask
 from viscotack.design import Bounds, Candidate, Choice, Conditions, read_design
 from viscotack.design.arrays import grid
@@ -337,9 +336,8 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
 
 
 def test_the_command_writes_a_table_and_a_picture(small):
-    line = ["design", "small.toml", "--confirm", "1", "--accuracy", "0.01"]
-    done = CliRunner().invoke(application(), [*line, "--csv", "d.csv", "--plot", "d.svg"])
-    assert done.exit_code == 0, done.output
+    line = "design small.toml --confirm 1 --accuracy 0.01 --csv d.csv --plot d.svg"
+    assert exit_status(line) == 0
     row = next(csv.DictReader(Path("d.csv").read_text().splitlines()))
     assert row["meets"] == "True"
     assert float(row["simulated_hold_N"]) == pytest.approx(float(row["hold_N"]), rel=0.05)

@@ -75,10 +75,10 @@ def test_a_forecast_covers_the_true_value_and_widens_away_from_the_data(fit, for
     assert width[1] > 1.5 * width[0]
     assert found.low_of_one is None
     # a single test scatters about the mean of many
-    single = forecast_rates(of_other(fit, scatter=0.1), speed)
-    assert single.low == pytest.approx(found.low)
+    single = forecast_rates(of_other(fit, scatter=0.1), speed[:1])
+    assert single.low == pytest.approx(found.low[:1], rel=2e-3)
     wide = np.log(single.high_of_one / single.low_of_one)
-    assert wide == pytest.approx(np.hypot(width, 2 * 1.645 * 0.1), rel=0.05)
+    assert wide == pytest.approx(np.hypot(width[:1], 2 * 1.645 * 0.1), rel=0.05)
 
 
 def test_doubt_about_the_material_widens_the_interval(noisy, fit):

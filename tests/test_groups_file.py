@@ -3,11 +3,10 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
+from command_line import answered, refused
 from solids import creep_power_law
-from viscotack.app.cli import application
 
 GROUPS = """
 [groups]
@@ -100,15 +99,15 @@ FLAGS = ["--tabor", "1", "--preload", "5", "--rate", "10"]
         ),
     ],
 )
-def test_a_file_without_dimensions_states_what_the_flags_state(lines, flags, tmp_path, monkeypatch):
+def test_a_file_without_dimensions_states_what_the_flags_state(
+    lines, flags, tmp_path, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "law.csv").write_text("gap_nm,traction_kPa\n1,-9\n2,0\n3,9\n5,4\n8,0\n")
     (tmp_path / "tip.csv").write_text("radius_1,height_1\n0,0\n1,0.6\n2,2\n5,12\n9,40\n")
-    end = ["--until", "pull-off", "--accuracy", "0.02", "--json"]
-    done = CliRunner().invoke(application(), ["simulate", *flags, *FLAGS, *end])
-    assert done.exit_code == 0, done.output
-    expected = vt.from_dict(json.loads(done.stdout)["problem"])
-    assert read(tmp_path, SHORT + lines) == expected
+    end = ["--until", "pull-off", "--accuracy", "0.02"]
+    found = answered(["simulate", *flags, *FLAGS, *end], capsys)
+    assert read(tmp_path, SHORT + lines) == vt.from_dict(found["problem"])
 
 
 @pytest.mark.parametrize(
@@ -124,23 +123,21 @@ def test_what_has_no_meaning_without_dimensions_is_refused(lines, field, tmp_pat
 
 
 def predicted(path, *replaced):
-    flags = [word for one in replaced for word in ("--set", one)]
-    return CliRunner().invoke(application(), ["predict", str(path), *flags, "--json"])
+    return ["predict", path, *(word for one in replaced for word in ("--set", one))]
 
 
-def test_numbers_of_a_file_are_replaced(tmp_path):
+def test_numbers_of_a_file_are_replaced(tmp_path, capsys):
     text = GROUPS.replace('moves = ["approach 5 to depth 80", "dwell 2"]\nstiffness = 4\n', "")
     path = tmp_path / "a.toml"
     path.write_text(text)
     other = tmp_path / "b.toml"
     other.write_text(text.replace("3.24", "2.5").replace("316.23", "100"))
-    one = json.loads(predicted(path, "tabor=2.5", "rate = 100").stdout)
-    two = json.loads(predicted(other).stdout)
+    one = answered(predicted(path, "tabor=2.5", "rate = 100"), capsys)
+    two = answered(predicted(other), capsys)
     assert one["pull_off_force"] == two["pull_off_force"]
     for *wrong, name in (
         ("tabour=2", "tabor"),
         ("tabor=2 mm", "tabor"),
         ("rate=1", "rate=2", "rate"),
     ):
-        done = predicted(path, *wrong)
-        assert done.exit_code == 2 and name in done.output
+        assert name in refused(predicted(path, *wrong), capsys)

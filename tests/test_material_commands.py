@@ -1,14 +1,13 @@
 """From a laboratory's file to a pull-off force, by the command line."""
 
 import json
-import shlex
 
 import numpy as np
 import pytest
 
+from command_line import exit_status, refused
 from melts import CHAMBER, LAW
 from stated import case_text
-from viscotack.app.cli import main
 from viscotack.model.materials import StandardSolid
 from viscotack.model.materials.library import published
 from viscotack.model.materials.passport_file import read_passport, write_passport
@@ -35,24 +34,9 @@ def lab(tmp_path, monkeypatch):
     return tmp_path
 
 
-def call(line):
-    """Return the exit status of a command."""
-    with pytest.raises(SystemExit) as caught:
-        main(shlex.split(line))
-    return caught.value.code or 0
-
-
 def printed(line, capsys):
-    assert call(line) == 0, capsys.readouterr().err
+    assert exit_status(line) == 0, capsys.readouterr().err
     return capsys.readouterr()
-
-
-def refused(line, capsys):
-    """Return the message of a refused command: nothing on standard output, no traceback."""
-    assert call(line) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and "Traceback" not in err
-    return err
 
 
 def test_from_file_to_pull_off_in_two_commands(lab, capsys):

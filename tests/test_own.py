@@ -1,15 +1,13 @@
 """A law, a material, a shape and an observable of a user's own: one file each, and all is known."""
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
-from viscotack.app.cli import application
+from command_line import answered, exit_status, refused
 from viscotack.campaign import Store, read_plan, run
 from viscotack.model.problem.nouns import known, own_nouns
 
@@ -54,11 +52,8 @@ def problem(case_file):
     return vt.read_case(case_file, also=(MORSE, ZENER, SHAPE))
 
 
-def call(*arguments):
-    """Run a command with the three files; return its exit status, output and errors."""
-    files = [word for file in FILES.values() for word in ("--with", str(OWN / file))]
-    done = CliRunner().invoke(application(), [*map(str, arguments), *files])
-    return done.exit_code, done.stdout, done.stderr
+# What loads the three files in a command.
+WITH = [word for file in FILES.values() for word in ("--with", OWN / file)]
 
 
 def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
@@ -79,19 +74,15 @@ def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
     assert found["rounding"] == problem.groups().geometry.rounding
 
 
-def test_the_command_line_loads_own_parts(case_file, tmp_path):
-    status, out, err = call(
-        "simulate", "case", case_file, "--json", "--until", "pull-off", "--accuracy", 1e-2,
-        "--save", tmp_path / "run.npz",
-    )  # fmt: skip
-    assert status == 0, err
-    answer = json.loads(out)
+def test_the_command_line_loads_own_parts(case_file, tmp_path, capsys):
+    run = tmp_path / "run.npz"
+    how = ["--until", "pull-off", "--accuracy", 1e-2, "--save", run]
+    answer = answered(["simulate", "case", case_file, *how, *WITH], capsys)
     assert answer["problem"]["interface"]["law"] == "morse"
     assert answer["largest_contact_radius_m"] > 0
-    status, out, err = call("show", tmp_path / "run.npz")
-    assert status == 0 and "largest contact radius" in out, err
-    alone = CliRunner().invoke(application(), ["show", str(tmp_path / "run.npz")])
-    assert alone.exit_code == 2 and "--with FILE.py" in alone.stderr
+    assert exit_status(["show", run, *WITH]) == 0
+    assert "largest contact radius" in capsys.readouterr().out
+    assert "--with FILE.py" in refused(["show", run], capsys)
 
 
 def test_a_campaign_keeps_their_numbers_and_goes_on(case_file, tmp_path):
@@ -116,19 +107,13 @@ rounded-cone.rounding = 20e-6
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
 
 
-def test_a_theory_predicts_with_own_parts():
-    status, out, err = call(
-        *"predict sphere --material cole-cole:0.6 --modulus-ratio 0.1 --tabor 30".split(),
-        *"--preload 200 --rate 100 --json".split(),
+def test_a_theory_predicts_with_own_parts(capsys):
+    sphere = "predict sphere --modulus-ratio 0.1 --tabor 30 --preload 200 --rate 100".split()
+    own, other = (
+        answered([*sphere, "--material", f"{word}:0.6", *WITH], capsys)["pull_off_force"]
+        for word in ("cole-cole", "fractional-zener")
     )
-    assert status == 0, err
-    told = json.loads(out)["pull_off_force"]
-    status, out, err = call(
-        *"predict sphere --material fractional-zener:0.6 --modulus-ratio 0.1 --tabor 30".split(),
-        *"--preload 200 --rate 100 --json".split(),
-    )
-    assert status == 0, err
-    assert told == pytest.approx(json.loads(out)["pull_off_force"], rel=1e-5)
+    assert own == pytest.approx(other, rel=1e-5)
 
 
 def test_an_incomplete_noun_is_refused_before_anything_is_solved():

@@ -1,13 +1,10 @@
 """What the machine does, in words: in TOML, in a table, and on the command line."""
 
-import json
-
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
+from command_line import answered
 from stated import LAW, case_text
-from viscotack.app.cli import application
 from viscotack.model.problem.law_table import law_from_words
 from viscotack.model.protocol.words import (
     PUNCH_UNITS,
@@ -149,18 +146,10 @@ def test_a_wrong_law_is_refused_with_its_key(tmp_path):
         case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', text)
 
 
-def simulated(*flags):
-    arguments = ["simulate", "sphere", "--tabor", "1", "--material", "elastic", *flags, "--json"]
-    return CliRunner().invoke(application(), arguments)
-
-
-def test_moves_on_the_command_line():
-    done = simulated(
-        "--apart", "15", "--move", "approach 10 to depth 2", "--move", "dwell 1",
-        "--stiffness", "5", "--rate", "1", "--law", "exponential:0.4",
-    )  # fmt: skip
-    assert done.exit_code == 0, done.output
-    record = json.loads(done.stdout)["problem"]
+def test_moves_on_the_command_line(capsys):
+    line = ["simulate", "sphere", "--tabor", 1, "--material", "elastic", "--apart", 15]
+    line += ["--move", "approach 10 to depth 2", "--move", "dwell 1", "--stiffness", 5]
+    record = answered([*line, "--rate", 1, "--law", "exponential:0.4"], capsys)["problem"]
     assert record["groups"] == {
         "tabor": 1.0,
         "apart": 15.0,

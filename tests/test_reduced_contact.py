@@ -10,11 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
+from command_line import exit_status
 from stated import case_text
-from viscotack.app.cli import application
 from viscotack.design.control import reduced_contact, reduced_header
 from viscotack.design.window.simulated import part_of, posed_contact
 from viscotack.simulate.march import SteppedSimulation
@@ -308,9 +307,7 @@ CASE = case_text(
 def test_the_command_writes_the_header_of_the_contact(ball, tmp_path):
     case, header = tmp_path / "ball.toml", tmp_path / "ball.h"
     case.write_text(CASE)
-    words = ["export", "contact", str(case), "-o", str(header), "--name", "ball"]
-    done = CliRunner().invoke(application(), words)
-    assert done.exit_code == 0, done.output
+    assert exit_status(["export", "contact", case, "-o", header, "--name", "ball"]) == 0
     assert header.read_text() == reduced_header(ball, "ball")
 
 

@@ -6,10 +6,9 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
-from viscotack.app.cli import application
+from command_line import exit_status
 from viscotack.prediction.uncertainty import TIER
 
 LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
@@ -128,12 +127,11 @@ def test_what_cannot_be_is_refused(deviations, more, words):
         vt.uncertainty(CASE, deviations, **more)
 
 
-def test_the_command_draws_and_tells_the_largest_first(tmp_path):
+def test_the_command_draws_and_tells_the_largest_first(tmp_path, capsys):
     flags = ["--scatter", f"{RADIUS} 1 %", "--scatter", f"{WORK} 20 %", "--samples", "16"]
-    files = ["--plot", str(tmp_path / "shares.png"), "--csv", str(tmp_path / "shares.csv")]
-    done = CliRunner().invoke(application(), ["uncertainty", str(LENS), *flags, *files])
-    assert done.exit_code == 0, done.output
-    first = [line.split()[0] for line in done.stdout.splitlines()]
+    files = ["--plot", tmp_path / "shares.png", "--csv", tmp_path / "shares.csv"]
+    assert exit_status(["uncertainty", LENS, *flags, *files]) == 0
+    first = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
     assert [name for name in first if name in (WORK, RADIUS, TIER)] == [WORK, RADIUS, TIER]
     assert (tmp_path / "shares.png").stat().st_size > 5000
     assert len((tmp_path / "shares.csv").read_text().splitlines()) == 4

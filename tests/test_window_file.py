@@ -7,12 +7,11 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
+from command_line import exit_status
 from picture_units import in_si
 from test_window import ELASTIC, contact, with_work
-from viscotack.app.cli import application
 from viscotack.app.operations import ask
 from viscotack.design import read_window
 from viscotack.design.window import aged, opening_chance
@@ -65,9 +64,7 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
 
 
 def test_the_command_writes_tables_and_a_picture(small):
-    line = ["window", "small.toml", "--csv", "map.csv", "--critical", "c.csv", "--plot", "map.svg"]
-    done = CliRunner().invoke(application(), line)
-    assert done.exit_code == 0, done.output
+    assert exit_status("window small.toml --csv map.csv --critical c.csv --plot map.svg") == 0
     rows = list(csv.DictReader(Path("map.csv").read_text().splitlines()))
     assert len(rows) == 14
     assert {row["donor_opens"] for row in rows} == {"donor"}
@@ -114,8 +111,7 @@ def folder(tmp_path, monkeypatch):
 
 def test_a_file_with_scatter_has_columns_of_probabilities(folder):
     Path("small.toml").write_text(FEW + "\n[scatter]\ndonor = 0.2\nstamp = 0.2\n")
-    done = CliRunner().invoke(application(), ["window", "small.toml", "--csv", "map.csv"])
-    assert done.exit_code == 0, done.output
+    assert exit_status("window small.toml --csv map.csv") == 0
     row = next(csv.DictReader(Path("map.csv").read_text().splitlines()))
     expected = NormalDist().cdf(log(50 / 20) / (0.2 * sqrt(2)))
     assert float(row["pick_probability"]) == pytest.approx(expected, abs=5e-3)
