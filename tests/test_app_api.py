@@ -99,24 +99,21 @@ def test_no_file_of_the_server_is_read(ask):
     assert found.status_code == 422 and "was sent with the request" in found.json()["error"]
 
 
-def test_a_job_is_cancelled_at_once_and_the_next_is_served(ask):
+@pytest.mark.parametrize("end", ["cancelled", "failed"])
+def test_after_a_job_that_is_cancelled_or_whose_process_crashes_the_next_is_served(
+    ask, engine, end
+):
+    # which would take minutes
     id = ask.job("simulate", accuracy=1e-6).json()["id"]
     while ask("GET", f"/api/jobs/{id}").json()["state"] == "queued":
         pass
-    # which would take minutes, is not waited for
-    assert ask("DELETE", f"/api/jobs/{id}").json()["state"] == "cancelled"
-    assert ask.answer(ask.job("simulate", accuracy=0.02).json()["id"])["state"] == "done"
-
-
-def test_a_job_whose_process_crashes_says_how_and_the_next_is_served(ask, engine):
-    id = ask.job("simulate", accuracy=1e-6).json()["id"]
-    while ask("GET", f"/api/jobs/{id}").json()["state"] == "queued":
-        pass
-    (pool,) = engine._lanes["work"]._all
-    pool.kill()
-    found = ask.answer(id)
-    assert found["state"] == "failed"
-    assert "a defect of viscotack: its process ended" in found["error"]
+    if end == "cancelled":
+        assert ask("DELETE", f"/api/jobs/{id}").json()["state"] == end
+    else:
+        (pool,) = engine._lanes["work"]._all
+        pool.kill()
+        found = ask.answer(id)
+        assert found["state"] == end and "its process ended" in found["error"]
     assert ask.answer(ask.job("simulate", accuracy=0.02).json()["id"])["state"] == "done"
 
 

@@ -13,7 +13,6 @@ import viscotack as vt
 from rate_tests import GAP, LENS, PRELOAD, RADIUS, RUBBER, WORK, holds
 from viscotack import identify
 from viscotack.app.operations.parts.records import forecast_rows
-from viscotack.identify.contact_time import check_relaxed
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured, survey
 from viscotack.theory import edge_law, jkr
@@ -96,13 +95,6 @@ def test_intervals_of_growth_and_reference_time_are_those_of_student(level):
 def test_too_few_dwells_are_refused(times):
     with pytest.raises(vt.InputError, match="dwells"):
         identify.identify_dwell(times, np.ones(len(times)), radius=5e-3)
-
-
-def test_a_solid_that_relaxes_between_the_dwells_is_refused():
-    solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e6, tau0=2.0, poisson_ratio=0.5)
-    check_relaxed(solid, np.array([50.0, 1e3]))
-    with pytest.raises(vt.InputError, match="the modulus relaxes by"):
-        check_relaxed(solid, np.array([1.0, 1e3]))
 
 
 @pytest.fixture

@@ -143,20 +143,16 @@ def ring(r):
     return r * r / 2 + 8 * np.exp(-r * r)
 
 
-@pytest.fixture(scope="module")
-def ring_result():
-    groups = vt.Groups(
-        tabor=4.0,
-        material=ELASTIC,
-        start=vt.Apart(12.0),
-        moves=(vt.Approach(1.0, vt.AtDepth(5.0)),),
-        rate=1.0,
-        geometry=reduced(ring),
-    )
+def approached(height, depth, material=ELASTIC, rate=None):
+    """Return the result of an approach from apart, and of a retraction at a rate."""
+    moves = (vt.Approach(1.0, vt.AtDepth(depth)),)
+    start, shape = vt.Apart(12.0), reduced(height)
+    groups = vt.Groups(4.0, material, start, rate, moves=moves, geometry=shape)
     return vt.solve(groups, **ROUGHLY)
 
 
-def test_both_edges_of_a_ring_are_reported(ring_result):
+def test_both_edges_of_a_ring_are_reported():
+    ring_result = approached(ring, 5.0, rate=1.0)
     touching = np.isfinite(ring_result.contact_radius)
     assert np.all(ring_result.rings[touching] == 1) and np.all(ring_result.rings[~touching] == 0)
     assert np.all(np.isnan(ring_result.inner_radius[~touching]))
@@ -177,15 +173,7 @@ def test_parts_of_a_contact_that_comes_together_are_counted():
     def groove(r):
         return r * r / 2 + 0.8 * np.exp(-(((r - 1) / 0.25) ** 2))
 
-    groups = vt.Groups(
-        tabor=4.0,
-        material=RELAXING,
-        start=vt.Apart(12.0),
-        moves=(vt.Approach(1.0, vt.AtDepth(8.0)),),
-        rate=None,
-        geometry=reduced(groove),
-    )
-    result = vt.solve(groups, **ROUGHLY)
+    result = approached(groove, 8.0, RELAXING)
     assert vt.summary(result)["most_rings"] == 2
     assert result.rings is not None and result.rings[-1] == 1
     assert result.energy_residual is not None and result.energy_residual < 5e-3

@@ -20,14 +20,6 @@ def read(tmp_path, content, name="test.csv", **said):
     return tack.read(path, **said)
 
 
-def test_the_columns_of_a_test_are_read(tmp_path):
-    (record,) = read(tmp_path, PLAIN)
-    assert record.time == pytest.approx(WHOLE.time, rel=1e-6)
-    assert record.force == pytest.approx(WHOLE.force, rel=1e-6)
-    assert record.position == pytest.approx(WHOLE.drive, rel=1e-6)
-    assert record.into == 1
-
-
 @pytest.mark.parametrize("name", [*tack_files.TEXTS, "workbook"])
 def test_every_text_layout_gives_the_same_test(name):
     path = tack_files.TEXTS.get(name, tack_files.LAYOUTS / "workbook.xlsx")

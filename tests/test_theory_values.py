@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from reference_data import reference
-from viscotack.model.materials.shift import WLF
 from viscotack.theory import bounds, empirical, lennard_jones, persson_brener, rate
 
 # scales in which those of Eq. 4.16 are 1: pi w = E* = R = 1
@@ -39,17 +38,6 @@ def test_the_fast_limit_of_jkr_gives_the_verified_value(row):
     else:
         found = bounds.glassy_force_at_radius(inputs["a0_hat"], **UNIT, **k)
     assert found == pytest.approx(row["value"], rel=1e-9, abs=0)
-
-
-@pytest.mark.parametrize("row", reference("4.25"))
-def test_wlf_gives_the_verified_value(row):
-    inputs = row["inputs"]
-    T, Tg = inputs["T_C"] + 273.15, inputs.get("Tg_C", -115) + 273.15
-    found = WLF.from_glass_transition(Tg).log10_shift(T)
-    if "Tref_C" in inputs:
-        law = WLF.from_glass_transition(-115 + 273.15)
-        found -= law.log10_shift(inputs["Tref_C"] + 273.15)
-    assert found == pytest.approx(row["value"], rel=1e-12, abs=1e-15)
 
 
 @pytest.mark.parametrize("row", reference("4.24", "4.28", "0.3 a^2.7=1.5/k"))

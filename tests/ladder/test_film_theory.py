@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.model.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
-from viscotack.theory import SteadyCrack, disc, film, indenter, jkr, profiles
+from viscotack.model.geometry import Bonded, Frictionless, HalfSpace, Layer, Sphere
+from viscotack.theory import SteadyCrack, disc, film, indenter, jkr
 from viscotack.theory.crack.contact import profile_on, recede
 from viscotack.theory.elastic import on_body, on_layer
 
@@ -39,18 +39,6 @@ def test_a_thin_film_pulls_off_at_two_or_three_pi_r_dg(base, thickness):
     assert -end.force == pytest.approx(limit, rel=1e-2)
 
 
-@pytest.mark.slow
-def test_the_thickness_of_a_half_space_is_that_at_which_the_force_differs_by_the_tolerance():
-    cone, base = Cone(1.0), BASES[2]
-    whole = film.pull_off(shape=cone, body=HalfSpace(), **UNITS).force
-    b = film.half_space_thickness(shape=cone, base=base, tolerance=0.1, **UNITS)
-    force = film.pull_off(shape=cone, body=Layer(b, base), **UNITS).force
-    assert abs(force / whole - 1) == pytest.approx(0.1, rel=1e-3)
-    assert film.half_space_thickness(shape=BALL, base=Frictionless(), tolerance=0.5, **UNITS) == 0
-    with pytest.raises(vt.InputError, match="tolerance must lie between"):
-        film.half_space_thickness(shape=BALL, base=SQUEEZED, tolerance=0.0, **UNITS)
-
-
 @pytest.mark.parametrize("base", BASES, ids=repr)
 def test_a_disc_releases_the_energy_of_its_compliance(base):
     a, layer = np.array([0.05, 0.3, 2.0]), Layer(0.2, base)
@@ -79,16 +67,6 @@ def test_kendall_on_a_thin_film_is_that_of_springs_or_of_a_squeezed_film():
     assert np.all(np.diff(thin) < 0) and thin[-1] == pytest.approx(1.0, rel=0.05)
     # the correction is of first order in b/a
     assert 2 * thin[2] - thin[1] == pytest.approx(1.0, rel=1e-2)
-
-
-def test_kendall_on_a_half_space_is_that_of_the_profiles_and_the_strength_limits_it():
-    case = dict(contact_radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
-    kendall = -profiles.punch_pull_off(**case).force
-    assert disc.pull_off_force(**case) == pytest.approx(kendall, rel=1e-12)
-    thin = Layer(1e-5, SQUEEZED)
-    limit = disc.strength_limit(contact_radius=1e-3, strength=50e3)
-    assert disc.pull_off_force(**case, body=thin, strength=50e3) == limit
-    assert disc.pull_off_force(**case, body=thin) > limit
 
 
 def test_the_integral_equation_and_the_influence_matrix_have_the_same_stiffness():

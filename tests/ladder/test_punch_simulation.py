@@ -10,8 +10,7 @@ from threadpoolctl import threadpool_limits
 import viscotack as vt
 from dimensionless import ELASTIC, punch, slope
 from punches import resized
-from reference_data import VALUES
-from research.twins import plain_punch, triangle_matrix
+from research.twins import plain_punch
 from viscotack.simulate import Settings
 from viscotack.simulate.contacts.punch import PunchContact
 from viscotack.theory import punch as theory
@@ -186,14 +185,6 @@ def test_the_punch_is_second_order_in_the_mesh():
 
 
 # --- the plain twin -------------------------------------------------------------------------
-def test_triangles_of_the_plain_twin_are_the_reference_ones():
-    entries = [e for e in VALUES if e["equation"].startswith("3.19") and "M" in e["inputs"]]
-    assert len(entries) > 5
-    for entry in entries:
-        given = entry["inputs"]
-        row = triangle_matrix(given["M"], 1.0, given["B=b/a"], vt.Frictionless())[0]
-        # there tension is positive
-        assert -row[given["m-n"]] == pytest.approx(entry["value"], rel=1e-9, abs=1e-13), entry
 
 
 def test_the_plain_twin_tends_to_the_fast_solver_as_its_triangles_multiply():

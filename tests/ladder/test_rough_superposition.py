@@ -72,19 +72,18 @@ def test_asperities_of_random_height_tend_to_fuller_and_tabor_for_short_range():
     assert off[1] / off[0] == pytest.approx(0.5, abs=0.15)  # of first order in the range
 
 
-def test_bumps_far_apart_are_those_of_the_grid():
-    given = problem(four_bumps(48), VISCOUS)
-    found, grid = superposed(given), pull(given, estimate_error=False)
-    assert found.touching == 4 and found.inside
-    assert found.pull_off_force == pytest.approx(grid.pull_off_force, rel=0.06)
-
-
-def test_a_smooth_sphere_is_that_of_the_grid():
-    cap = sphere(48, 20e-6 / 3, radius=1e-3)
-    given = problem(cap)
-    found, grid = superposed(given, force_outside=True), pull(given, estimate_error=False)
-    assert found.touching == 1
-    assert found.pull_off_force == pytest.approx(grid.pull_off_force, rel=5e-3)
+@pytest.mark.parametrize(
+    ("given", "count", "within"),
+    [
+        (problem(four_bumps(48), VISCOUS), 4, 0.06),
+        (problem(sphere(48, 20e-6 / 3, radius=1e-3)), 1, 5e-3),
+    ],
+    ids=["bumps far apart", "a smooth sphere"],
+)
+def test_asperities_pull_off_as_on_the_grid(given, count, within):
+    grid, found = pull(given, estimate_error=False), superposed(given, force_outside=count == 1)
+    assert found.touching == count and (found.inside or count == 1)
+    assert found.pull_off_force == pytest.approx(grid.pull_off_force, rel=within)
 
 
 def test_neighbours_are_refused_unless_forced():
