@@ -318,20 +318,6 @@ def test_a_liquid_is_called_one():
     assert "liquid" not in solid.words() and not issued(solid, name="solid").liquid
 
 
-def test_a_fractional_zener_solid_is_found_again():
-    solid = vt.FractionalZener(
-        rubbery_modulus=1e6, glassy_modulus=1e8, order=0.6, tau0=1.0, poisson_ratio=0.5
-    )
-    report = fit(
-        curve(material=solid, omega=np.geomspace(1e-3, 1e7, 20)), poisson_ratio=0.5, draws=0
-    )
-    assert report.model == "fractional-zener"
-    assert report.material.order == pytest.approx(0.6, rel=0.01)
-    t = np.geomspace(1e-6, 1e4, 40)
-    for data in (RelaxationTest(t, solid.relaxation(t), "E"), CreepTest(t, solid.creep(t), "E")):
-        found = fit(data, poisson_ratio=0.5, model="fractional-zener", draws=0).material
-        assert found.order == pytest.approx(0.6, rel=1e-4)
-        assert found.tau0 == pytest.approx(1.0, rel=1e-3)
 
 
 def test_an_end_that_no_profile_reaches_is_no_bound():
