@@ -2,6 +2,9 @@
 
 from dataclasses import asdict
 
+import viscotack as vt
+from solids import creep_power_law
+
 SPHERE = {
     "indenter": "sphere",
     "tabor": 3.24,
@@ -47,6 +50,18 @@ radius = "5.19 mm"
 preload_force = "1.5 mN"
 speed = "100 um/s"
 """
+
+
+def lens(speed=100e-6, **changes):
+    """Return the same lens as a problem, with changes."""
+    parts = {
+        "material": creep_power_law(1.458e6, 3.089e9, 0.2207, 0.01876, 0.5),
+        "traction": vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
+        "geometry": vt.Sphere(radius=5.19e-3),
+        "protocol": vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=speed),
+    }
+    return vt.Problem(**parts | changes)
+
 
 # a pad of 2 mm on a bonded layer
 PAD = """

@@ -9,6 +9,7 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from solids import creep_power_law
+from stated import lens
 from viscotack.model.traction import effective_range
 from viscotack.theory import tabulated_modulus
 
@@ -16,16 +17,6 @@ from viscotack.theory import tabulated_modulus
 def groups(rate, *, tabor=3.24, modulus_ratio=0.1, exponent=0.8, start=None):
     material = creep_power_law(1.0, 1 / modulus_ratio, exponent, 1.0, 0.0)
     return vt.Groups(tabor=tabor, material=material, start=start or vt.AtDepth(73.0), rate=rate)
-
-
-def silicone(speed):
-    """The silicone and the lens of the thesis (section 4.6)."""
-    return vt.Problem(
-        material=creep_power_law(1.458e6, 3089e6, 0.2207, 0.01876, 0.5),
-        traction=vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
-        geometry=vt.Sphere(radius=5.19e-3),
-        protocol=vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=speed),
-    )
 
 
 def estimate(advice, tier):
@@ -146,12 +137,12 @@ def test_every_law_gets_advice_as_good_as_it_is_said_to_be(law, effective_tabor,
 
 
 def test_in_si_speed_and_strain_are_judged():
-    slow, fast = vt.advise(silicone(1e-7)), vt.advise(silicone(1e-3))
+    slow, fast = vt.advise(lens(speed=1e-7)), vt.advise(lens(speed=1e-3))
     assert not slow.beyond_linear and fast.beyond_linear
     assert slow.crack_speed_at_pull_off_m_per_s < 1e-4 < fast.crack_speed_at_pull_off_m_per_s
     assert slow.small_strain and slow.strain == pytest.approx(0.075, rel=0.2, abs=0)
     assert len(fast.statements) > len(slow.statements)
-    dimensionless = vt.advise(silicone(1e-3).groups())
+    dimensionless = vt.advise(lens(speed=1e-3).groups())
     assert dimensionless.crack_speed_at_pull_off_m_per_s is None and dimensionless.strain is None
     assert dimensionless.amplification == pytest.approx(fast.amplification, rel=1e-9, abs=0)
 

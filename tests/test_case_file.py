@@ -5,23 +5,10 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
-from stated import LENS, case_text
+from stated import LENS, case_text, lens
 from viscotack.model.problem.case_file import case_of_tables
 from viscotack.model.problem.prony_file import read_prony
 from viscotack.model.problem.schema import schema
-
-PROBLEM = vt.Problem(
-    material=vt.RetardationPowerLaw(
-        rubbery_modulus=1.458e6,
-        glassy_modulus=3.089e9,
-        exponent=0.2207,
-        tau0=0.01876,
-        poisson_ratio=0.5,
-    ),
-    traction=vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
-    geometry=vt.Sphere(radius=5.19e-3),
-    protocol=vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=100e-6),
-)
 
 
 def written(folder, text):
@@ -155,7 +142,7 @@ def test_the_documented_case_is_the_lens(tmp_path):
     text = (Path(__file__).parents[1] / "docs/input.md").read_text(encoding="utf-8")
     example = re.search(r"```toml\n(.*?)```", text, flags=re.S)
     assert example
-    assert vt.read_case(written(tmp_path, example[1])) == PROBLEM
+    assert vt.read_case(written(tmp_path, example[1])) == lens()
     series = re.search(r"```text\n(.*?)```", text, flags=re.S)
     assert series
     (tmp_path / "series.csv").write_text(series[1])

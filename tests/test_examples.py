@@ -1,22 +1,18 @@
 """Examples say what they should, with fast settings; the build of the documentation runs all."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import viscotack as vt
+from modules import module_at
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
 def load(name):
-    """Return an example as a module, without running its main."""
-    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_at(EXAMPLES / f"{name}.py")
 
 
 def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys):
@@ -79,9 +75,7 @@ def test_a_heavier_load_is_borne_for_a_shorter_time(tmp_path, capsys):
 
 @pytest.mark.slow
 def test_the_files_of_the_rig_are_those_that_their_script_makes():
-    spec = importlib.util.spec_from_file_location("make_rig", EXAMPLES / "from_rig" / "make.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = load("from_rig/make")
     name, speed = "30_um_s", module.SPEEDS["30_um_s"]
     made = np.stack(module.columns(speed, seed=list(module.SPEEDS).index(name))[:3], axis=1)
     kept = np.loadtxt(EXAMPLES / "from_rig" / f"lens_{name}.csv", delimiter=",", skiprows=1)

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 import viscotack as vt
 from reference_data import DMA
+from solids import creep_power_law, fractional_zener, standard_solid
 from viscotack.identify import PullOff, RateSeries, identify_rates
 from viscotack.lab import fit, master_curve, read, read_dma
 from viscotack.lab.fit import errors as fit_errors
@@ -26,9 +27,7 @@ PDMS = published("pdms-10-1").material
 TRUTH = (1.458e6, 3.089e9, 0.2207, 0.01876)
 # The points of the thesis's DMA: 1 Hz, -130 to 20 C in steps of 10 K.
 CELSIUS = np.arange(-130, 21, 10.0)
-SMOOTH = vt.RetardationPowerLaw(
-    rubbery_modulus=1e6, glassy_modulus=1e9, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
-)
+SMOOTH = creep_power_law(1e6, 1e9, 0.5, 1e-2, 0.5)
 WLF_PDMS = WLF.from_glass_transition(158.15).at_reference(293.15)
 OMEGA = 2 * np.pi * 10 ** np.asarray(WLF_PDMS.log10_shift(CELSIUS + 273.15))
 
@@ -80,12 +79,12 @@ def test_intervals_and_draws_of_independent_errors_are_those_of_student():
 def test_best_finds_the_law_that_made_the_numbers():
     laws = {
         "power-law": PDMS,
-        "sls": vt.StandardSolid(
-            rubbery_modulus=1e6, glassy_modulus=2e7, tau0=1e-2, poisson_ratio=0.5
-        ),
+        "fractional-zener": fractional_zener(1e6, 1e8, 0.6, 1.0, 0.5),
+        "sls": standard_solid(1e6, 2e7, 1e-2, 0.5),
     }
     for model, solid in laws.items():
-        omega = OMEGA if model != "sls" else np.geomspace(1, 1e6, 12)
+        omega = {"sls": np.geomspace(1, 1e6, 12), "fractional-zener": np.geomspace(1e-3, 1e7, 20)}
+        omega = omega.get(model, OMEGA)
         report = fit(curve(material=solid, omega=omega), poisson_ratio=0.5, draws=0)
         assert report.model == model
         assert dict(report.compared)[model] == min(v for _, v in report.compared)
@@ -93,9 +92,7 @@ def test_best_finds_the_law_that_made_the_numbers():
 
 @pytest.mark.parametrize("apart, chosen", [(1.9, "fractional-zener"), (2.1, "prony")])
 def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, chosen):
-    solid = vt.FractionalZener(
-        rubbery_modulus=1e6, glassy_modulus=1e9, order=0.5, tau0=1e-3, poisson_ratio=0.5
-    )
+    solid = fractional_zener(1e6, 1e9, 0.5, 1e-3, 0.5)
     tried = [
         Tried("fractional-zener", solid, 10.0 + apart, 4),
         Tried("prony", solid, 10.0, 14),
@@ -133,20 +130,20 @@ def test_the_plateau_of_a_series_with_single_arms_is_held_by_its_interval():
     assert ends.low < 5e6 < ends.high
 
 
-def test_tests_over_time_find_the_constants_too():
-    solid = vt.RetardationPowerLaw(
-        rubbery_modulus=1e6, glassy_modulus=1e9, exponent=0.5, tau0=1e-3, poisson_ratio=0.5
-    )
-    t = np.geomspace(1e-12, 1e6, 40)
-    for data in (
-        RelaxationTest(t, solid.relaxation(t), "E"),
-        CreepTest(t, solid.creep(t), "E"),
-    ):
-        found = fit(data, poisson_ratio=0.5, model="power-law", draws=0).material
-        assert found.exponent == pytest.approx(0.5, rel=1e-3)
-        assert found.tau0 == pytest.approx(1e-3, rel=1e-2)
-        series = fit(data, poisson_ratio=0.5, model="prony", draws=0)
-        assert series.median_error < 0.01
+@pytest.mark.parametrize(
+    ("solid", "name", "time"),
+    [
+        (creep_power_law(1e6, 1e9, 0.5, 1e-3, 0.5), "exponent", (1e-12, 1e6)),
+        (fractional_zener(1e6, 1e8, 0.6, 1.0, 0.5), "order", (1e-6, 1e4)),
+    ],
+)
+def test_tests_over_time_find_the_constants_too(solid, name, time):
+    t = np.geomspace(*time, 40)
+    for data in (RelaxationTest(t, solid.relaxation(t), "E"), CreepTest(t, solid.creep(t), "E")):
+        found = fit(data, poisson_ratio=0.5, model=solid.word, draws=0).material
+        assert getattr(found, name) == pytest.approx(getattr(solid, name), rel=1e-3)
+        assert found.tau0 == pytest.approx(solid.tau0, rel=1e-2)
+        assert fit(data, poisson_ratio=0.5, model="prony", draws=0).median_error < 0.01
 
 
 # ---- what the data cannot determine ------------------------------------------------------------
@@ -232,7 +229,7 @@ def test_amplitudes_that_may_not_be_negative_are_the_best_there_are():
 
 def test_a_noisy_loss_modulus_does_not_spoil_the_storage_modulus():
     omega = np.geomspace(1, 1e8, 80)
-    solid = vt.StandardSolid(rubbery_modulus=1e9, glassy_modulus=3e9, tau0=1e-4, poisson_ratio=0.4)
+    solid = standard_solid(1e9, 3e9, 1e-4, 0.4)
     modulus = solid.complex_modulus(omega)
     random = np.random.default_rng(0)
     loss = modulus.imag * np.exp(0.4 * random.normal(size=80) + 0.3)
@@ -316,8 +313,6 @@ def test_a_liquid_is_called_one():
     assert "this is a liquid" in fit(flowing, poisson_ratio=0.5, model="prony", draws=2).words()
     solid = fit(curve(), poisson_ratio=0.5, model="prony", draws=2)
     assert "liquid" not in solid.words() and not issued(solid, name="solid").liquid
-
-
 
 
 def test_an_end_that_no_profile_reaches_is_no_bound():

@@ -3,7 +3,7 @@ import math
 import pytest
 
 import viscotack as vt
-from stated import numbers
+from stated import lens, numbers
 from viscotack.model.problem import plane, ranges
 from viscotack.model.problem.inputs import changed, check_exponent, check_paths
 
@@ -20,17 +20,6 @@ MATERIALS = [
     ),
 ]
 STARTS = [vt.AtDepth(2e-6), vt.AtForce(1.5e-3), vt.AtRadius(0.3e-3)]
-
-
-def lens(**changes):
-    """Return the lens of the thesis (Eq. 4.27, section 4.6), with changes."""
-    parts = dict(
-        material=MATERIALS[3],
-        traction=vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
-        geometry=vt.Sphere(radius=5.19e-3),
-        protocol=vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=100e-6),
-    )
-    return vt.Problem(**(parts | changes))
 
 
 def start_value(start):

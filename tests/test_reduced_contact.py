@@ -1,7 +1,6 @@
 """Tests of the contact with memory for other simulators: limits, passivity, the twin in C."""
 
 import ctypes
-import importlib.util
 import shutil
 import subprocess
 from dataclasses import replace
@@ -13,6 +12,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from modules import module_at
 from stated import case_text
 from viscotack.design.control import reduced_contact, reduced_header
 from viscotack.design.window.simulated import part_of, posed_contact
@@ -315,11 +315,7 @@ def test_the_command_writes_the_header_of_the_contact(ball, tmp_path):
 def example(name, needed):
     """Return an example of a simulator as a module."""
     pytest.importorskip(needed)
-    path = Path(__file__).parents[1] / "examples" / "simulators" / f"{name}.py"
-    spec = importlib.util.spec_from_file_location(name, path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_at(Path(__file__).parents[1] / "examples" / "simulators" / f"{name}.py")
 
 
 @pytest.mark.outside

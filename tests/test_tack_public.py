@@ -1,10 +1,11 @@
 """Public tack tests, which are not in the repository: ``--tack=FOLDER``."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+from modules import module_at
 
 BENCHMARK = Path(__file__).parents[1] / "research" / "public_tack_files.py"
 
@@ -17,9 +18,7 @@ def test_every_retraction_of_the_speed_series_is_read_within_one_per_cent(reques
             f"no folder {folder}: get 'Raw data/Retraction speed series' of "
             "lloxxa/DOI-10.3389-fphy.2024.1412352 (parent of commit 3af066a2) and give --tack"
         )
-    spec = importlib.util.spec_from_file_location("public_tack_files", BENCHMARK)
-    study = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(study)
+    study = module_at(BENCHMARK)
     rows, reasons = [], []
     for paths in study.groups_of(folder).values():
         read, refused = study.outcome(paths)

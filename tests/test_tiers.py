@@ -160,24 +160,28 @@ def test_joint_intervals_contain_the_single_ones():
     assert both.work_interval[1] > one.work_interval[1] and both.curve_band > one.curve_band
 
 
-# Slower than any row of the training: Tabor number, k, n, depth, rate; tau0 is 1.
+# Slower than any row of the training: Tabor number, solid whose time is 1, depth, rate.
 SLOW = [
-    (2.05, 4.72e-4, 0.2207, 8.0, 6e-3),
-    (3.2, 2e-4, 1.3, 1.6, 1e-3),
-    (0.1, 0.1, 0.5, 10.0, 1e-4),
+    (2.05, solid(4.72e-4, 0.2207), 8.0, 6e-3),
+    (3.2, solid(2e-4, 1.3), 1.6, 1e-3),
+    (0.1, solid(0.1, 0.5), 10.0, 1e-4),
+    (5.0, standard(0.01), 30.0, 1e-2),
+    (5.0, vt.Prony(**UNIT, branches=((9.0, 0.01), (90.0, 0.003))), 30.0, 1e-4),
 ]
 
 
-@pytest.mark.parametrize("tabor, k, n, depth, rate", SLOW)
+@pytest.mark.parametrize("tabor, material, depth, rate", SLOW)
 def test_below_the_slowest_rate_of_the_training_the_interval_contains_the_simulation(
-    tabor, k, n, depth, rate
+    tabor, material, depth, rate
 ):
-    case = groups(tabor, solid(k, n), vt.AtDepth(depth), rate)
+    case = groups(tabor, material, vt.AtDepth(depth), rate)
     found, result = vt.predict(case), vt.solve(case, until="pull-off", estimate_error=False)
+    assert found.method in {tier.name for tier in LEARNED}
     assert found.interval[0] <= vt.pull_off_force(result) <= found.interval[1]
     assert found.interval[1] / found.interval[0] < 1.02
     assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
-    assert found.work_interval[1] / found.work_interval[0] < 1.05
+    widest = 1.05 if isinstance(material, vt.RetardationPowerLaw) else 1.08
+    assert found.work_interval[1] / found.work_interval[0] < widest
 
 
 @pytest.mark.parametrize(
@@ -192,18 +196,6 @@ def test_slow_forces_are_continuous_and_fall_to_the_elastic_one(material, tabor,
     assert force[2] == pytest.approx(force[0], rel=4e-3)
     assert force[-1] == pytest.approx(float(pull_off_ratio(tabor)), rel=2e-3)
     assert found[0].work_to_pull_off == pytest.approx(found[2].work_to_pull_off, rel=0.02)
-
-
-@pytest.mark.parametrize(("kind", "rate"), [("standard", 1e-2), ("prony", 1e-4)])
-def test_other_solids_that_hardly_lag_have_the_slow_force_of_simulations(kind, rate):
-    prony = vt.Prony(**UNIT, branches=((9.0, 0.01), (90.0, 0.003)))
-    material = prony if kind == "prony" else standard(0.01)
-    case = groups(5.0, material, vt.AtDepth(30.0), rate)
-    found = vt.predict(case)
-    result = vt.solve(case, until="pull-off", accuracy=0.01, estimate_error=False)
-    assert found.method == "surrogate of solids"
-    assert found.interval[0] <= vt.pull_off_force(result) <= found.interval[1]
-    assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
 
 
 @pytest.mark.parametrize("rate", [0.02, 1e-9])

@@ -123,5 +123,3 @@ def test_an_impossible_table_is_refused(change, message):
     TabulatedModulus(**GOOD)
     with pytest.raises(ValueError, match=message):
         TabulatedModulus(**(GOOD | change))
-
-
