@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from dimensionless import SOLID
 from viscotack.prediction import other_contacts
 from viscotack.theory import disc, film
 
-SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 GLUED = vt.Bonded(poisson_ratio=0.49)
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 LOAD = 1.5 * np.pi

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.simulate import has_start
 from viscotack.theory.crack.contact import profile_of, radius_at_depth
-
-SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
 
 def pulled(tabor: float, material: Any = SOLID, **changes: Any) -> vt.Groups:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from dimensionless import SOLID
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.prediction.simulation import SIMULATION
 from viscotack.prediction.tiers import TIERS
@@ -31,7 +32,6 @@ SHAPES = [
     vt.Disc(1.0),
     vt.Disc(1.0, edge_width=0.1, edge_height=0.2),
 ]
-STANDARD = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 CHEAP = [tier for tier in TIERS if tier.name != SIMULATION]
 
 
@@ -64,7 +64,7 @@ def test_a_tier_rejects_every_shape_on_every_body_outside_its_lists(tier):
     rejected = 0
     for shape in SHAPES:
         for body in BODIES.values():
-            case = vt.Groups(8.0, STANDARD, vt.AtDepth(40.0), 30.0, geometry=shape, body=body)
+            case = vt.Groups(8.0, SOLID, vt.AtDepth(40.0), 30.0, geometry=shape, body=body)
             kinds = type(shape), type(getattr(body, "base", body))
             if any(kinds[0] in v.shapes and kinds[1] in v.bodies for v in tier.verified):
                 continue

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack as vt
+from dimensionless import ELASTIC
 from solids import creep_power_law, standard_solid
 
 ACCURACY = 0.01
@@ -59,7 +60,6 @@ def power_laws(draw):
 
 
 RELAXING = st.one_of(standard_solids(), series())
-ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 LAWS = st.one_of(
     st.just(vt.LennardJones(1.0, 1.0)),
     decades(0.1, 0.5).map(lambda decay: vt.Exponential(1.0, 1.0, decay=decay)),

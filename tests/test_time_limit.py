@@ -9,9 +9,9 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from dimensionless import SOLID
 from viscotack import clock
 
-SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = vt.Groups(tabor=1.0, material=SOLID, start=vt.AtDepth(1.0), rate=10.0)
 EXAMPLES = Path(__file__).parents[1] / "examples"
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()

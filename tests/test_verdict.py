@@ -5,11 +5,10 @@ from dataclasses import replace
 import pytest
 
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.simulate import Settings
 from viscotack.simulate.verdict import judged
 
-ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 PRESSED = vt.AtDepth(3.0)
 
 

@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import viscotack as vt
+from dimensionless import ELASTIC
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.simulate.settings import Settings
 from viscotack.theory.elastic import indenter, on_body
@@ -15,7 +16,6 @@ pytestmark = pytest.mark.march
 
 OWN = Path(__file__).resolve().parents[2] / "examples" / "own"
 (FOUNDATION,) = own_nouns([OWN / "foundation.py"])
-ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 LAW = vt.LennardJones(1.0, 1.0)
 RADII = np.geomspace(1e-3, 300, 7)
 SOLID = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}

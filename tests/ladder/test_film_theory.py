@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from dimensionless import SOLID
 from viscotack.model.geometry import Bonded, Frictionless, HalfSpace, Layer, Sphere
 from viscotack.theory import SteadyCrack, disc, film, indenter, jkr
 from viscotack.theory.crack.contact import profile_on, recede
@@ -73,9 +74,6 @@ def test_the_integral_equation_and_the_influence_matrix_have_the_same_stiffness(
     layer, a = Layer(0.4, BASES[2]), np.array([0.3, 1.0])
     found = indenter.stiffness(a, body=layer, contact_modulus=2.0)
     assert found == pytest.approx(2 * on_body.stiffness(a, layer), rel=5e-4)
-
-
-SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
 def receding(body, rates, start=4.0):

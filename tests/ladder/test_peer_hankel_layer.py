@@ -9,13 +9,12 @@ import pytest
 
 import hankel_layer as peer
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.theory.elastic import on_layer
 
 pytestmark = pytest.mark.march
 
 BASE = vt.Bonded(poisson_ratio=0.49)
-ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-RELAXING = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
 def pulled(shape, thickness, solid, start, rate):
@@ -39,7 +38,7 @@ def test_a_disc_on_a_layer_has_the_stiffness_of_the_other_code():
 
 @pytest.mark.parametrize(
     ("solid", "rate", "thickness"),
-    [(ELASTIC, 1.0, 0.5), (RELAXING, 3.0, 0.5), (RELAXING, 3.0, 0.2)],
+    [(ELASTIC, 1.0, 0.5), (SOLID, 3.0, 0.5), (SOLID, 3.0, 0.2)],
 )
 def test_a_sphere_on_a_layer_pulls_as_in_the_other_code(solid, rate, thickness):
     ratio = solid.modulus_ratio

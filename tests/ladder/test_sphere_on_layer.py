@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.model.geometry import Bonded, Cone, Frictionless, Layer, Sphere
 from viscotack.theory.elastic import indenter, on_body, on_layer
 
@@ -13,8 +14,6 @@ pytestmark = pytest.mark.march
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.5))]
 SQUEEZED = Bonded(poisson_ratio=0.5)
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
-ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 RADII = np.geomspace(0.05, 5.0, 6)
 
 
