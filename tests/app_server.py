@@ -1,15 +1,12 @@
-"""Servers of the page, of the API and of files, and a browser that opens them."""
+"""Servers of the page and of the API, and a browser that opens the page."""
 
 import re
 import shutil
 import signal
 import subprocess
 import sys
-import threading
 import time
 from contextlib import contextmanager
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import pytest
 
@@ -31,21 +28,6 @@ def running(*flags, environment=None):
         server.send_signal(signal.SIGINT)
         server.wait(20)
         server.stderr.close()
-
-
-class _Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *words):
-        pass
-
-
-@contextmanager
-def serving(folder):
-    """Yield the link of a server of the files in a folder, at a free port."""
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=folder))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/"
-    server.shutdown()
-    server.server_close()
 
 
 @contextmanager

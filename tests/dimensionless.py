@@ -1,5 +1,7 @@
 """Dimensionless solids, of rubbery modulus and time 1, spheres and punches; exponents of errors."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from solids import creep_power_law, standard_solid
@@ -28,6 +30,14 @@ def punch(start, *moves, size=64.85, thickness=3.24, cohesion=0.05, material=SOL
     """Return the punch of the thesis on its sliding layer, with changes."""
     of_plane = {"geometry": FlatPunch(size), "body": Layer(thickness), "cohesion": cohesion}
     return sphere(start, *moves, tabor=None, material=material, **of_plane, **more)
+
+
+def resized(groups, *, size=None, thickness=None, base=None, **others):
+    """Replace the sizes and the base of a dimensionless punch, and other parts of it."""
+    size = groups.geometry.half_width if size is None else size
+    thickness = groups.body.thickness if thickness is None else thickness
+    base = groups.body.base if base is None else base
+    return replace(groups, geometry=FlatPunch(size), body=Layer(thickness, base), **others)
 
 
 def slope(x, y):

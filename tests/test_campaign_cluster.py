@@ -6,13 +6,13 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 from campaign_work import Inline, plan_of, slow, stand_in, told
-from processes import until
 from viscotack.campaign import Dask, run
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")
@@ -26,6 +26,14 @@ def findable(monkeypatch):
     paths = [str(HERE), before] if before else [str(HERE)]
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(paths))
     monkeypatch.setenv("DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES", "1")
+
+
+def until(condition, seconds=120.0):
+    """Wait for a state; the longest time decides no test."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it has not come about"
+        time.sleep(0.01)
 
 
 class Cluster:

@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
-from punches import resized
+from dimensionless import resized
 from solids import standard_solid
 from viscotack.prediction.surrogate import punch_physics as physics
 from viscotack.prediction.surrogate import store

@@ -1,5 +1,6 @@
 """What the solver says when it is asked for something it cannot do, and what it keeps."""
 
+import sys
 import tracemalloc
 from dataclasses import replace
 
@@ -7,9 +8,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from dimensionless import ELASTIC, SOLID, punch
-from effort import calls
-from punches import resized
+from dimensionless import ELASTIC, SOLID, punch, resized
 from solids import relaxation_power_law
 from viscotack.model.materials import Material
 from viscotack.simulate import Settings
@@ -258,6 +257,23 @@ def test_a_wide_punch_on_a_thin_bonded_layer_is_solved():
 
 
 # --- numbers beyond the physical
+def calls(function):
+    """Return how many functions, of Python and of C, a call of a function calls in turn."""
+    count = 0
+
+    def one(_, event, __):
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    before = sys.getprofile()
+    sys.setprofile(one)
+    try:
+        function()
+    finally:
+        sys.setprofile(before)
+    return count
+
+
 @pytest.mark.parametrize(
     ("problem", "said"),
     [

@@ -7,7 +7,6 @@ import pytest
 
 import viscotack as vt
 from dimensionless import punch, standard
-from tier_problems import PROBLEMS, refusal
 from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import AT_ONCE, EXACT, LEARNED, SOON, THEORIES, TIERS, best
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
@@ -45,9 +44,32 @@ OWN = {
 }
 
 
+SOLIDS = standard(0.1), solid(0.1, 0.6)
+_SOFT = vt.Elastic(**UNIT)
+PROBLEMS = (
+    *(vt.Groups(tabor, _SOFT, vt.AtForce(1.0), 1.0) for tabor in (0.2, 1.5, 8.0)),
+    # a large preload, from which a fast retraction meets the glassy solid
+    vt.Groups(1.5, SOLIDS[0], vt.AtForce(300.0), 1e7),
+    punch(vt.AtForce(0.1), size=60.0, thickness=3.0, rate=10.0),
+    *(
+        vt.Groups(tabor, SOLIDS[i % 2], vt.AtForce(2.0 * max(tabor, 1.0)), rate)
+        for i, (tabor, rate) in enumerate(
+            [(0.05, 1.0), (1.5, 10.0), (4.0, 100.0), (60.0, 1e3), (1e7, 1.0)]
+        )
+    ),
+)
 SHORT_PUNCH = punch(
     vt.AtForce(0.1), size=8.0, thickness=0.3, cohesion=0.5, material=standard(0.1), rate=1.0
 )
+
+
+def refusal(tier, case):
+    """Return why a tier does not answer a problem, or an empty string."""
+    try:
+        tier.answer(case)
+    except vt.OutOfRange as reason:
+        return str(reason)
+    return ""
 
 
 @pytest.mark.parametrize("tier", [t for t in TIERS if t is not EXACT], ids=lambda t: t.name)

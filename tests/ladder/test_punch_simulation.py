@@ -8,8 +8,7 @@ from scipy.optimize import brentq
 from threadpoolctl import threadpool_limits
 
 import viscotack as vt
-from dimensionless import ELASTIC, punch, slope
-from punches import resized
+from dimensionless import ELASTIC, punch, resized, slope
 from research.twins import plain_punch
 from viscotack.simulate import Settings
 from viscotack.simulate.contacts.punch import PunchContact
