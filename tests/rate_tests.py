@@ -22,6 +22,14 @@ def linear(speeds=SPEEDS, material=RUBBER, gap=GAP):
     return Forward(material, RADIUS).pulled(WORK, gap, np.asarray(speeds), PRELOAD).force
 
 
+def of_single_cracks(forward, interface, speeds, *law):
+    """Return pull-offs [N] for a work, a gap and a preload, each of a crack of its own."""
+    work, gap, preload = interface
+    found = [vt.crack_contact(forward.problem(work, gap, preload, float(v), *law)) for v in speeds]
+    unit = 1.5 * np.pi * forward.radius * work
+    return np.array([one.pull_off_force for one in found]) * unit
+
+
 def measured(forces, relative, speeds=SPEEDS, **more):
     """Return pull-offs with a relative uncertainty of their forces."""
     rows = zip(speeds, forces, strict=True)

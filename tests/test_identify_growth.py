@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from rate_tests import LENS, holds, measured, of_other
+from rate_tests import LENS, holds, measured, of_other, of_single_cracks
 from viscotack.app.operations.parts.report.rendering import page
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
@@ -25,11 +25,7 @@ CASE = {"material": SOLID, "radius": RADIUS, "preload": PRELOAD, "growth": True}
 
 
 def forces(law, speeds=SPEEDS):
-    """Return pull-offs, each of a crack of its own."""
-    unit = 1.5 * np.pi * RADIUS * WORK
-    forward = Forward(SOLID, RADIUS)
-    found = [vt.crack_contact(forward.problem(WORK, GAP, PRELOAD, v, law)) for v in speeds]
-    return np.array([one.pull_off_force for one in found]) * unit
+    return of_single_cracks(Forward(SOLID, RADIUS), (WORK, GAP, PRELOAD), speeds, law)
 
 
 def fitted(values, **more):

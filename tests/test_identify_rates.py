@@ -23,6 +23,7 @@ from rate_tests import (
     linear,
     measured,
     of_other,
+    of_single_cracks,
 )
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.force_ratios import yielding_near
@@ -36,10 +37,7 @@ PDMS = published("pdms-10-1").material
 
 @pytest.fixture(scope="module")
 def forces():
-    """Return pull-offs, each of a crack of its own."""
-    forward = Forward(RUBBER, RADIUS)
-    found = [vt.crack_contact(forward.problem(WORK, GAP, PRELOAD, float(v))) for v in SPEEDS]
-    return np.array([one.pull_off_force for one in found]) * 1.5 * np.pi * RADIUS * WORK
+    return of_single_cracks(Forward(RUBBER, RADIUS), (WORK, GAP, PRELOAD), SPEEDS)
 
 
 @pytest.fixture(scope="module")

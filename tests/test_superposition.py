@@ -24,7 +24,7 @@ from viscotack.lab import (
 from viscotack.lab.fit.report import issued
 from viscotack.model.materials import FractionalZener, StandardSolid
 from viscotack.model.materials.passport_file import read_passport, write_passport
-from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.model.materials.shift import WLF, TabulatedShift
 
 TRUE = LAW.log10_shift(CHAMBER)
 QUANTILE = 1.645  # of a 90 % interval
@@ -111,10 +111,6 @@ def test_a_law_for_the_table_is_found_or_none_is():
     assert np.all(np.abs(error) < 2)
     stairs = TabulatedShift(REFERENCE, CHAMBER, [3, 2.9, 1.5, 1.4, 0.2, 0.1, -2], np.full(7, 0.02))
     assert nearest_law(stairs, reference_temperature=REFERENCE) is None
-    activated = Arrhenius(REFERENCE, 60e3)
-    rows = TabulatedShift(REFERENCE, CHAMBER, activated.log10_shift(CHAMBER), np.full(7, 0.02))
-    law = nearest_law(rows, reference_temperature=REFERENCE).law
-    assert isinstance(law, Arrhenius)
 
 
 def sweeps_of(solid, temperatures, seed=0):
