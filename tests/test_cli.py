@@ -8,12 +8,11 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status, refused
-from synthetic import jkr_detachment, jkr_result
+from synthetic import jkr_detachment
 from viscotack.app import cli
 
 SPHERE = ["simulate", "sphere"]
 ISSUE = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73 --rate 316.23".split()
-ELASTIC = "--material elastic --tabor 3.24 --preload 20".split()
 
 
 @pytest.fixture
@@ -124,16 +123,6 @@ def test_flags_with_units_state_a_problem_in_si(fake, capsys):
 )
 def test_a_wrong_flag_in_si_is_named(changes, flag, fake, capsys):
     assert flag in refused(lens(**changes), capsys)
-
-
-def test_a_failed_simulation_exits_with_one_and_its_status(fake, capsys):
-    fake["result"] = jkr_result(status="stopped because the step became too small")
-    assert exit_status([*SPHERE, *ELASTIC, "--json"]) == 1
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["status"] == "stopped because the step became too small"
-    assert answer["pull_off_force"] is None
-    assert exit_status([*SPHERE, *ELASTIC]) == 1
-    assert "stopped because" in capsys.readouterr().out
 
 
 TAPS = [

@@ -18,13 +18,14 @@ from viscotack.theory import jkr, maugis
 LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}
 
 
-def of_jkr(seed, points=50, noise=0.02):
-    """Return a noisy P(a) of the lens, and its noise."""
-    end = jkr.pull_off(**LENS)
-    a = np.linspace(end.contact_radius, 3 * end.contact_radius, points)
+def of_jkr(seed, points=50, noise=0.02, against="radius", largest=3, sphere=LENS):
+    """Return a noisy P(a) or P(depth) of a sphere, up to so many radii of its pull-off."""
+    end = jkr.pull_off(**sphere)
+    a = np.linspace(end.contact_radius, largest * end.contact_radius, points)
     sigma = noise * abs(end.force)
-    force = jkr.force(a, **LENS) + sigma * np.random.default_rng(seed).standard_normal(points)
-    return SlowTest(force, a, "radius", LENS["radius"], sigma)
+    force = jkr.force(a, **sphere) + sigma * np.random.default_rng(seed).standard_normal(points)
+    at = a if against == "radius" else jkr.depth(a, **sphere) + 1e-6
+    return SlowTest(force, at, against, sphere["radius"], sigma)
 
 
 def of_maugis(tabor, seed, noise=0.005, against="radius"):
@@ -81,11 +82,7 @@ SMALL = {"radius": 5e-3, "contact_modulus": 2e6, "work_of_adhesion": 60.3e-3}
 
 @pytest.mark.parametrize("noise, undetermined", [(0.0125, True), (0.012, False)])
 def test_works_of_models_that_the_data_do_not_distinguish_are_all_given(noise, undetermined):
-    end = jkr.pull_off(**SMALL)
-    a = np.linspace(end.contact_radius, 2 * end.contact_radius, 40)
-    sigma = noise * abs(end.force)
-    force = jkr.force(a, **SMALL) + sigma * np.random.default_rng(3).standard_normal(40)
-    test = SlowTest(force, jkr.depth(a, **SMALL) + 1e-6, "depth", SMALL["radius"], sigma)
+    test = of_jkr(3, 40, noise, "depth", largest=2, sphere=SMALL)
     fit = identify_slow(test, models=["jkr", "dmt"])
     apart = fit.fits[1].criterion - fit.fits[0].criterion
     assert fit.undetermined == undetermined == (apart < 6)

@@ -156,19 +156,9 @@ protocol.speed = ["10 um/s", 1e-4]
 """
 
 
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """Return a folder to work in, with a plan, a rough surface and a measured map."""
-    monkeypatch.chdir(tmp_path)
+def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(small):
     Path("plan.toml").write_text(PLAN)
     Path("bumps.toml").write_text(SMALL.replace(MAP, BUMPS))
-    Path("measured.toml").write_text(SMALL)
-    x = np.linspace(-1, 1, 16)
-    np.savetxt("map.csv", 2 - 2 * np.add.outer(x**2, x**2), delimiter=",")
-    return tmp_path
-
-
-def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(folder):
     plan = read_plan("plan.toml")
     assert plan.kind.columns == ("protocol.speed", "surface.scatter")
     assert len(plan.cases) == 4 and plan.rejected == 0
@@ -185,8 +175,8 @@ def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(folder):
     assert {"contact_share_at_pull_off", "pastewka_robbins", "steps", "versions"} <= same.keys()
 
 
-def test_a_map_that_has_changed_since_is_refused(folder):
-    case = read_rough_case("measured.toml")
+def test_a_map_that_has_changed_since_is_refused(small):
+    case = read_rough_case(small)
     assert len(case.surface.sha256) == 64
     np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
     with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):

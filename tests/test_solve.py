@@ -132,18 +132,6 @@ def test_the_stated_error_covers_that_of_a_small_work(tabor, depth, material):
     assert error < estimate < 5 * error
 
 
-def test_a_work_that_is_lost_in_its_error_is_not_told():
-    result = vt.solve(case(vt.AtDepth(0.0), 1e-3, material=ELASTIC), until="pull-off")
-    with pytest.raises(ValueError, match="is half of it or more.*start deep"):
-        vt.work_to_pull_off(result)
-    answer = vt.summary(result)
-    assert answer["work_to_pull_off"] is None
-    assert "is half of it or more" in answer["work_to_pull_off_note"]
-    assert answer["error_estimate"]["work"] > 0.5
-    assert answer["pull_off_force"] == pytest.approx(4 / 3, rel=0.06)
-    assert vt.pull_off_force(result) == answer["pull_off_force"]
-
-
 def test_fields_are_kept_on_request_and_agree_with_the_force():
     result = vt.solve(case(), until="pull-off", fields=True, estimate_error=False)
     fields = result.fields
