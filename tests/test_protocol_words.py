@@ -114,21 +114,6 @@ def test_a_wrong_history_is_refused_with_file_and_line(text, said, tmp_path):
         history_from_file(tmp_path / "h.csv", 1e-6)
 
 
-@pytest.mark.parametrize(
-    ("words", "law"),
-    [
-        ('"dugdale"\nfall = 1.0', vt.Dugdale(0.15, 1e-6, fall=1.0)),
-        ('"exponential"\ndecay = 0.25', vt.Exponential(0.15, 1e-6, 0.25)),
-    ],
-)
-def test_laws_can_be_written(words, law, tmp_path):
-    text = f'law = {words}\nwork_of_adhesion = "0.15 J/m^2"\nequilibrium_gap = "1 um"'
-    found = case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', text).traction
-    assert type(found) is type(law)
-    for name in ("work_of_adhesion", "equilibrium_gap", "strength", "edge_gap"):
-        assert getattr(found, name) == pytest.approx(getattr(law, name), rel=1e-12, abs=0)
-
-
 def test_a_law_may_be_a_table(tmp_path):
     rows = "gap_um,traction_kPa\n0.8,-400\n1,0\n1.2,100\n1.5,80\n2.5,10\n4,0\n"
     (tmp_path / "law.csv").write_text(rows)
