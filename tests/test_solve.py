@@ -1,6 +1,5 @@
 """What the solver says when it is asked for something it cannot do, and what it keeps."""
 
-import sys
 import tracemalloc
 from dataclasses import replace
 
@@ -244,24 +243,6 @@ def test_a_wide_punch_on_a_thin_bonded_layer_is_solved():
     assert result.statistics["meshes"] < _MOST_MESHES
 
 
-# --- numbers beyond the physical
-def calls(function):
-    """Return how many functions, of Python and of C, a call of a function calls in turn."""
-    count = 0
-
-    def one(_, event, __):
-        nonlocal count
-        count += event in ("call", "c_call")
-
-    before = sys.getprofile()
-    sys.setprofile(one)
-    try:
-        function()
-    finally:
-        sys.setprofile(before)
-    return count
-
-
 @pytest.mark.parametrize(
     ("problem", "said"),
     [
@@ -274,11 +255,8 @@ def calls(function):
     ],
 )
 def test_a_number_that_no_simulation_takes_is_named(problem, said):
-    def refused_by_name():
-        with pytest.raises(vt.InputError, match=said):
-            vt.solve(problem)
-
-    assert calls(refused_by_name) < 100_000  # a simulation makes millions
+    with pytest.raises(vt.InputError, match=said):
+        vt.solve(problem)
 
 
 @pytest.mark.march
