@@ -74,7 +74,7 @@ def test_an_elastic_contact_has_the_same_force_at_every_speed():
 
 
 def test_a_fast_pull_from_rest_is_the_modulus_ratio_stronger(ball):
-    _, force, _ = driven(ball, (2e-5, 10.0), (-1e-5, 3e-5), steps=400)
+    _, force, _ = driven(ball, (2e-5, 10.0), (-1e-5, 3e-5), steps=200)
     assert -force.min() == pytest.approx(10 * JKR, rel=0.02)
 
 
@@ -90,8 +90,8 @@ def test_pull_off_and_work_are_those_of_the_edge_that_is_a_steady_crack(
     found, unit = vt.crack_contact(replace(problem, protocol=test)), problem.scales()
     far = depth + 2e-5
     legs = (depth, depth / approach), (depth, dwell), (depth - far, far / speed)
-    z, force, _ = driven(reduced_contact(problem), *legs, steps=250)
-    peak, work = pull_off(z[500:], force[500:])
+    z, force, _ = driven(reduced_contact(problem), *legs, steps=150)
+    peak, work = pull_off(z[300:], force[300:])
     assert peak == pytest.approx(found.pull_off_force * unit.force, rel=0.01)
     assert work == pytest.approx(found.work_to_pull_off * unit.force * unit.length, rel=0.03)
 
@@ -165,10 +165,10 @@ def test_a_simulation_is_moved_as_far_as_its_mesh_reaches():
 
 @pytest.mark.parametrize("problem", [BALL, ARMS])
 def test_no_step_creates_energy(problem):
-    contact, rng, count = reduced_contact(problem), np.random.default_rng(3), 400
+    contact, rng, count = reduced_contact(problem), np.random.default_rng(3), 200
     state, depth = contact.apart(np.zeros(count)), np.zeros(count)
     least = -11.03 * contact.surface ** (5 / 3) * contact.force_unit * contact.length
-    for _ in range(60):
+    for _ in range(40):
         step = rng.normal(size=count) * 10 ** rng.uniform(-9, -5, count)
         after = np.where(rng.random(count) < 0.3, rng.uniform(-1e-5, 2e-5, count), depth + step)
         before = contact.storage(state)
