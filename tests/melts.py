@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.lab import CreepTest, FrequencySweeps, RelaxationTest
 from viscotack.model.materials.shift import WLF
 
-REFERENCE = 243.15
+REFERENCE, ROOM = 243.15, 293.15
 LAW = WLF(reference_temperature=REFERENCE, c1=10.0, c2=90.0)
 EXPANSION = 6.5e-4  # 1/K
 CHAMBER = np.array([233.15, 243.15, 253.15, 263.15, 273.15, 293.15, 313.15])
@@ -81,3 +81,14 @@ def creeps(seed=0, *, noise=0.01, temperatures=CHAMBER):
         scatter = np.exp(noise * rng.standard_normal(time.size))
         found.append(CreepTest(time, J / vertical(T) * scatter, "G", temperature=float(T)))
     return found
+
+
+def swept(solid, law, temperatures, hertz, *, noise=0.0, seed=0, up=0.0):
+    """Return sweeps of a solid under a law of shift; `up` is a vertical shift per kelvin."""
+    hertz = np.asarray(hertz)
+    T, omega = (x.ravel() for x in np.meshgrid(temperatures, 2 * np.pi * hertz, indexing="ij"))
+    modulus = solid.complex_modulus(omega * 10 ** law.log10_shift(T))
+    rng = np.random.default_rng(seed)
+    scatter = np.exp(noise * rng.standard_normal((2, T.size))) * 10 ** (-up * (T - ROOM))
+    storage, loss = modulus.real * scatter[0], modulus.imag * scatter[1]
+    return FrequencySweeps(T, omega, storage, loss, "E", np.arange(T.size) // hertz.size)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from melts import ROOM, swept
 from reference_data import DMA
 from viscotack.lab import (
     FrequencySweeps,
@@ -22,7 +23,7 @@ from viscotack.lab.fit.overlap import Curve, Hold, step_between
 from viscotack.model.materials import RetardationPowerLaw
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 
-ROOM = 293.15
+TEN = np.geomspace(0.1, 100, 10)
 # the thesis's PDMS (Eq. 4.27) and its shift (Eq. 4.25)
 PDMS = RetardationPowerLaw(
     rubbery_modulus=1.458e6,
@@ -36,15 +37,9 @@ SHIFT = WLF.from_glass_transition(158.15).at_reference(ROOM)
 CHAMBER = np.array([176, 179, 182, 186, 190, 195, 200, 210, 225, 240, 260, 280, ROOM])
 
 
-def measured(temperature=CHAMBER, hertz=None, *, noise=0.0, seed=0, up=0.0, law=SHIFT, solid=PDMS):
-    """Return sweeps of a known solid with a known shift; `up` is a vertical shift per kelvin."""
-    hertz = np.geomspace(0.1, 100, 10) if hertz is None else np.asarray(hertz)
-    T, omega = (grid.ravel() for grid in np.meshgrid(temperature, 2 * np.pi * hertz, indexing="ij"))
-    modulus = solid.complex_modulus(omega * 10 ** law.log10_shift(T))
-    rng = np.random.default_rng(seed)
-    scatter = np.exp(noise * rng.standard_normal((2, T.size))) * 10 ** (-up * (T - ROOM))
-    storage, loss = modulus.real * scatter[0], modulus.imag * scatter[1]
-    return FrequencySweeps(T, omega, storage, loss, "E", np.arange(T.size) // hertz.size)
+def measured(temperature=CHAMBER, hertz=TEN, *, law=SHIFT, solid=PDMS, **more):
+    """Return sweeps of a known solid with a known shift."""
+    return swept(solid, law, temperature, hertz, **more)
 
 
 @pytest.mark.parametrize("by", ["loss", "both"])

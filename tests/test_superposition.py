@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from melts import CHAMBER, EXPANSION, LAW, REFERENCE, creeps, melt, relaxations, vertical
+from melts import CHAMBER, EXPANSION, LAW, REFERENCE, creeps, melt, relaxations, swept, vertical
 from viscotack.lab import (
     CreepTest,
-    FrequencySweeps,
     RelaxationTest,
     allow_for_shifts,
     contradiction,
@@ -26,7 +25,7 @@ from viscotack.model.materials import FractionalZener, StandardSolid
 from viscotack.model.materials.passport_file import read_passport, write_passport
 from viscotack.model.materials.shift import WLF, TabulatedShift
 
-TRUE = LAW.log10_shift(CHAMBER)
+TRUE, TEN = LAW.log10_shift(CHAMBER), np.geomspace(0.1, 30, 10)
 QUANTILE = 1.645  # of a 90 % interval
 
 
@@ -55,7 +54,7 @@ def test_moduli_do_not_move_unless_asked():
     solid = FractionalZener(
         rubbery_modulus=1e6, glassy_modulus=1e9, order=0.5, tau0=1.0, poisson_ratio=0.5
     )
-    each = [sweeps_of(solid, CHAMBER[:5], seed) for seed in range(2)]
+    each = [swept(solid, LAW, CHAMBER[:5], TEN, noise=0.01, seed=seed) for seed in range(2)]
     off = {
         keywords.get("vertical"): np.array([
             master_curve(one, reference_temperature=REFERENCE, **keywords).shifts.values
@@ -113,20 +112,9 @@ def test_a_law_for_the_table_is_found_or_none_is():
     assert nearest_law(stairs, reference_temperature=REFERENCE) is None
 
 
-def sweeps_of(solid, temperatures, seed=0):
-    hertz = np.geomspace(0.1, 30, 10)
-    T, omega = (g.ravel() for g in np.meshgrid(temperatures, 2 * np.pi * hertz, indexing="ij"))
-    modulus = solid.complex_modulus(omega * 10 ** LAW.log10_shift(T))
-    scatter = np.exp(0.01 * np.random.default_rng(seed).standard_normal((2, T.size)))
-    return FrequencySweeps(
-        T, omega, modulus.real * scatter[0], modulus.imag * scatter[1], "E",
-        np.repeat(np.arange(len(temperatures)), hertz.size),
-    )  # fmt: skip
-
-
 def test_uncertain_shifts_widen_intervals_and_go_into_the_passport(tmp_path):
     solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1.0, poisson_ratio=0.5)
-    sweeps = sweeps_of(solid, CHAMBER[:5])
+    sweeps = swept(solid, LAW, CHAMBER[:5], TEN, noise=0.01)
     curve = master_curve(sweeps, reference_temperature=REFERENCE, vertical="auto")
     plain = fit(curve, poisson_ratio=0.5, model="sls", draws=5)
     report = allow_for_shifts(plain, curve, curve.shifts)
