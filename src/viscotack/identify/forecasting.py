@@ -35,7 +35,7 @@ from .pull_off import History
 from .rate_fit import RateSeriesFit
 from .search import SeriesFit
 from .simulated_tests import by_theory, tested
-from .words import forecast_words, series_forecast_words, simulation_words
+from .words import forecast_words, simulation_words
 
 _MOST = 200  # largest number of speeds
 _SURELY = 2.0  # standard deviations of a measured force
@@ -218,8 +218,7 @@ def forecast_edge(
         dwell=None,
         contact_time=None if given.decades is None else np.full(v.size, given.middle_time),
     )
-    said = series_forecast_words(fit, forecast, "the law alone")
-    return replace(forecast, words=tuple(said))
+    return replace(forecast, words=tuple(forecast_words(fit, forecast)))
 
 
 def _banded(

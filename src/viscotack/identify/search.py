@@ -27,7 +27,6 @@ from .growth import EXPONENT, STRENGTHENING, Opening, growing, growth_parameters
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff
 from .rate_series import RateSeries
-from .words import misfit_words
 
 _AT_ONCE = 20_000  # points interpolated per batch
 
@@ -508,11 +507,6 @@ class SeriesFit(Settled):
     def describes_tests(self) -> bool:
         """Whether residuals are as large as noise and theory let them be."""
         return self.scatter <= _LOUD
-
-    @property
-    def misfit(self) -> str:
-        """Sentence on tests that the fit does not describe; empty if it describes them."""
-        return "" if self.describes_tests else misfit_words(self)
 
 
 def settled(search: Search) -> Settled:

@@ -185,7 +185,7 @@ def fitted(
 def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, Any]:
     return {
         **interface_record(fit),
-        "describes_tests": not fit.misfit,
+        **read(fit, "describes_tests"),
         **read(forecast, "level", "preload_N", "temperature_K", "dwell_s"),
         "forecast": rows,
         "words": [*fit.words, *forecast.words],

@@ -203,10 +203,9 @@ def interface_record(fit: Any) -> dict[str, float]:
 def _series_record(fit: Any) -> dict[str, Any]:
     """Return intervals, scatter and forces of any fit of a rate series."""
     return {
-        **read(fit, "intervals", "scatter", "trend", "criterion"),
+        **read(fit, "intervals", "scatter", "trend", "criterion", "describes_tests"),
         "scatter_between_speeds": fit.between_speeds,
         "ageing": _ageing_record(fit),
-        "describes_tests": not fit.misfit,
         "solutions": [one.values for one in fit.solutions],
         "series": [
             {
