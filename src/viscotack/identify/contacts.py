@@ -126,12 +126,8 @@ def _maugis_by_depth(depth: Array, values: Values, radius: float) -> Array:
         d, P = np.append(d, np.asarray(free.depth)), np.append(P, np.asarray(free.force))
     turned = np.flatnonzero(np.diff(d) >= 0)
     stop = int(turned[0]) + 1 if turned.size else d.size
-    return _interpolated(depth, d[:stop][::-1], P[:stop][::-1])
-
-
-def _interpolated(x: Array, at: Array, force: Array) -> Array:
-    """Interpolate the force on a curve; beyond its end, return the force at the end."""
-    return np.interp(x, at, force)
+    # beyond the end of the curve the force at the end
+    return np.interp(depth, d[:stop][::-1], P[:stop][::-1])
 
 
 MODELS: dict[str, ElasticModel] = {

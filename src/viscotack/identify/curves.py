@@ -10,22 +10,20 @@ The work is that of the fastest place of the edge: of a viscoelastic solid it gr
 is an upper bound of the work of adhesion (:func:`viscotack.identify.identify_slow`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from scipy.stats import t
 
-from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
 from viscotack.lab.tack.record import Measured
 from viscotack.lab.tack.repeats import same_speeds, temperature_of
 
 from .contacts import MODELS
-from .likelihood import Best
-from .slow_tests import SlowTest, force_of, objective_of, sigma_of, slow_test
+from .slow_tests import SlowTest, slow_test, with_own_scatter
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +38,8 @@ class CurveFit:
         "jkr" or "dmt".
     test : SlowTest
         Its fitted points.
-    best : Best
-        Fitted values.
+    values : mapping
+        All fitted values, by the names of the model.
     work_of_adhesion, contact_modulus : Measured
         [J/m2] and [Pa], with the standard error of the fit.
     scatter : float
@@ -51,15 +49,10 @@ class CurveFit:
     cycle: Cycle
     model: str
     test: SlowTest
-    best: Best
+    values: Mapping[str, float]
     work_of_adhesion: Measured
     contact_modulus: Measured
     scatter: float
-
-    @property
-    def force(self) -> Array:
-        """Fitted forces at the points of the test [N]."""
-        return force_of(MODELS[self.model], self.test, self.best.values)
 
 
 @dataclass(frozen=True)
@@ -134,12 +127,7 @@ def _fitted(
     cycle: Cycle, radius: float, model: str, modulus: tuple[float, float] | None
 ) -> CurveFit:
     test = slow_test(cycle, radius)
-    sigma = sigma_of(test)
-    first = objective_of(MODELS[model], test, sigma, modulus).best()
-    # the scatter of the residuals replaces the noise if it is larger
-    size = max(np.sqrt(first.misfit / max(test.force.size - 3, 1)), 1e-6)
-    objective = objective_of(MODELS[model], test, size * sigma, modulus)
-    best = objective.best(near=first)
+    size, ((objective, best),) = with_own_scatter(test, [MODELS[model]], modulus)
     errors = np.sqrt(np.diag(objective.covariance(best)))
     found = {}
     for parameter, error in zip(objective.parameters, errors, strict=True):
@@ -149,10 +137,10 @@ def _fitted(
         cycle,
         model,
         test,
-        best,
+        best.values,
         found["work_of_adhesion"],
         found["contact_modulus"],
-        float(size * np.mean(sigma)),
+        float(size * np.mean(test.sigma)),
     )
 
 

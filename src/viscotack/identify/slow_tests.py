@@ -103,6 +103,15 @@ class SlowTest:
         if not self.force.min() < 0:
             raise InputError("no force is tensile; check the sign (compression positive)")
 
+    @cached_property
+    def sigma(self) -> Array:
+        """Uncertainty of each force [N], including that of its radius or depth."""
+        if not self.at_noise:
+            return np.full(self.force.size, self.force_noise)
+        order = np.argsort(self.at)
+        smooth = np.polynomial.Polynomial.fit(self.at[order], self.force[order], 4)
+        return np.hypot(self.force_noise, self.at_noise * smooth.deriv()(self.at))
+
 
 def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTest:
     """Return the retraction of a cycle up to its pull-off as a slow test.
@@ -368,25 +377,17 @@ def identify_slow(
         raise InputError("Carpick's equation has no depth; fit another model, or contact radii")
     solid, of_solid = _at_temperature(material, test.temperature)
     modulus = contact_modulus or of_solid
-    sigma = sigma_of(test)
-    bests = [_found(objective_of(model, test, sigma, modulus)) for model in chosen]
-    # the scatter of the best model replaces the noise if it is larger
-    least = min(best.misfit for best in bests)
-    size = float(max(np.sqrt(least / max(test.force.size - 3, 1)), 1e-6))
-    rows = []
-    for model, near in zip(chosen, bests, strict=True):
-        objective = objective_of(model, test, size * sigma, modulus)
-        best = objective.best(near=near)
-        criterion = best.misfit + len(objective.parameters) * float(np.log(test.force.size))
-        rows.append((criterion, model, objective, best))
-    rows.sort(key=lambda row: row[0])
+    size, fitted = with_own_scatter(test, chosen, modulus)
+    each = float(np.log(test.force.size))
+    criteria = [best.misfit + len(objective.parameters) * each for objective, best in fitted]
     fits = []
-    for criterion, model, objective, best in rows:
-        likely = criterion < rows[0][0] + _HOPELESS
+    for model, (objective, best), criterion in zip(chosen, fitted, criteria, strict=True):
+        likely = criterion < min(criteria) + _HOPELESS
         intervals = _intervals(model, objective, best, level) if likely else {}
         rest = objective.residuals(best.values)
         scatter = float(np.sqrt(np.mean(rest**2))) * size * test.force_noise
         fits.append(ModelFit(model.name, best.values, intervals, scatter, criterion))
+    fits.sort(key=lambda fit: fit.criterion)
     found = SlowTestFit(test, tuple(fits), level, size, modulus, material)
     return replace(found, same_pull=_same_pull(found, solid))
 
@@ -436,16 +437,19 @@ def _same_pull(fit: SlowTestFit, solid: Material | None) -> SamePull | None:
         return replace(found, error=str(error))
 
 
-def sigma_of(test: SlowTest) -> Array:
-    """Return the uncertainty of each force [N], including that of its radius or depth."""
-    if not test.at_noise:
-        return np.full(test.force.size, test.force_noise)
-    order = np.argsort(test.at)
-    smooth = np.polynomial.Polynomial.fit(test.at[order], test.force[order], 4)
-    return np.hypot(test.force_noise, test.at_noise * smooth.deriv()(test.at))
+def with_own_scatter(
+    test: SlowTest, models: Sequence[ElasticModel], modulus: tuple[float, float] | None
+) -> tuple[float, list[tuple[Objective, Best]]]:
+    """Return the scatter of the best model over the noise, and all models fitted with it."""
+    bests = [_found(_objective(model, test, test.sigma, modulus)) for model in models]
+    least = min(best.misfit for best in bests)
+    size = float(max(np.sqrt(least / max(test.force.size - 3, 1)), 1e-6))
+    objectives = [_objective(model, test, size * test.sigma, modulus) for model in models]
+    rows = zip(objectives, bests, strict=True)
+    return size, [(objective, objective.best(near=near)) for objective, near in rows]
 
 
-def objective_of(
+def _objective(
     model: ElasticModel, test: SlowTest, sigma: Array, modulus: tuple[float, float] | None
 ) -> Objective:
     """Return residuals over their standard deviations, and the unknowns, of a model."""
@@ -462,18 +466,14 @@ def objective_of(
         parameters.append(Parameter("zero", -scale, scale, 0.01 * scale, logarithmic=False))
 
     def residuals(values: Mapping[str, float]) -> Array:
-        return (force_of(model, test, values) - test.force) / sigma
+        return (fitted_force(test, model.name, values) - test.force) / sigma
 
     return Objective(residuals, tuple(parameters))
 
 
-def fitted_force(fit: ModelFit, test: SlowTest) -> Array:
-    """Return the forces of a fitted model at the radii or depths of a test [N]."""
-    return force_of(MODELS[fit.model], test, fit.values)
-
-
-def force_of(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> Array:
-    """Return the forces of a model at the radii or depths of a test [N]."""
+def fitted_force(test: SlowTest, name: str, values: Mapping[str, float]) -> Array:
+    """Return the forces of a model with its fitted values at the points of a test [N]."""
+    model = MODELS[name]
     if test.against == "radius":
         return model.by_radius(test.at, values, test.radius)
     assert model.by_depth is not None, "models without a depth were rejected"

@@ -50,7 +50,7 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
         for one in fit.fits:
             if one.criterion > fit.best.criterion + _MOST:
                 continue
-            force = fitted_force(one, test)
+            force = fitted_force(test, one.model, one.values)
             (line,) = above.plot(x[order], force[order], label=one.model.upper())
             rest = (test.force - force) / test.force_noise
             below.plot(x, rest, "o", ms=3, color=line.get_color())
@@ -72,11 +72,12 @@ def draw_curves(groups: Sequence[CurveGroup]) -> "Figure":
             colour = f"C{number % 10}"
             speed = said(group.speed, "m/s")
             for index, fit in enumerate(group.curves[:_SHOWN]):
-                test, x = fit.test, fit.test.at - fit.best.values.get("zero", 0.0)
+                test, x = fit.test, fit.test.at - fit.values.get("zero", 0.0)
                 curves.plot(x, test.force, ".", ms=2, color=colour, alpha=0.4)
                 order = np.argsort(x)
                 label = None if index else f"{speed}: {len(group.curves)} curves"
-                curves.plot(x[order], fit.force[order], lw=1.0, color=colour, label=label)
+                force = fitted_force(test, fit.model, fit.values)
+                curves.plot(x[order], force[order], lw=1.0, color=colour, label=label)
         what = "contact radius" if fits[0].test.against == "radius" else "fitted depth"
         label_in_si(curves.xaxis, what, "m")
         label_in_si(curves.yaxis, "force", "N")
