@@ -21,8 +21,8 @@ from .curves import CurveGroup, fit_curves, group_curves
 from .edge_fit import EdgeFit, identify_edge
 from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
 from .likelihood import Objective, Parameter, Posterior, posterior
-from .pull_off import PullOff, pull_offs
-from .ranked_tests import NextTests, Trial, next_tests
+from .pull_off import PullOff, Trial, pull_offs
+from .ranked_tests import NextTests, next_tests
 from .rate_fit import RateSeriesFit, identify_rates
 from .rate_series import RateSeries
 from .slow_tests import SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test

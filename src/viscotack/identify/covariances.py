@@ -23,11 +23,13 @@ from viscotack.model.materials.conversion import slowed
 from viscotack.model.materials.passport_uncertainty import allowed, shift_error
 from viscotack.model.protocol import Move
 
-from .forward import Changed, Forward, Interface
+from .forward import Changed, Forward, Interface, Pulled
+from .pull_off import Trial
 from .rate_series import RateSeries
 
 # Part of the variance between speeds that is a power of the speed, where there is a trend.
 TREND = 0.8
+_OF_TRIAL = ("speed", "preload")
 _RADII = 40  # points of a curve; sufficient for differences between solids
 # Errors of the theory at speeds a factor of e apart correlate by exp(-1/2.3).
 _TOGETHER = log(10.0)
@@ -57,6 +59,25 @@ class SphereTests(NamedTuple):
     stiffness: float | None = None
     moves: tuple[tuple[Move, ...], ...] = ()
 
+    def stated(self, trial: Trial) -> Trial:
+        """Return a test with preload and radius, by default the mean preload and the radius."""
+        load = float(self.load.mean()) if trial.preload is None else trial.preload
+        radius = self.forward.radius if trial.radius is None else trial.radius
+        return replace(trial, preload=load, radius=radius)
+
+    def of(self, trials: Sequence[Trial]) -> "SphereTests":
+        """Return tests of one sphere, with approach and dwell if all of them have these.
+
+        Their preload and radius are known; the material and the machine are those of these tests.
+        """
+        forward, radius = self.forward, trials[0].radius
+        if radius is not None and radius != forward.radius:
+            forward = replace(forward, radius=radius)
+        speed, load = (np.array([getattr(x, n) for x in trials], float) for n in _OF_TRIAL)
+        moves = tuple(each for x in trials if (each := x.moves()))
+        moves = moves if len(moves) == len(trials) else ()
+        return self._replace(forward=forward, speed=speed, load=load, moves=moves)
+
     def some(self, at: npt.NDArray[Any]) -> "SphereTests":
         """Select tests."""
         moves = tuple(self.moves[i] for i in np.arange(self.speed.size)[at]) if self.moves else ()
@@ -73,14 +94,15 @@ class SphereTests(NamedTuple):
         more: dict[str, Any] = {"stiffness": self.stiffness, "moves": self.moves, "growth": growth}
         return self.forward.changed(work, gap, self.speed, self.load, **more)
 
+    def pulled(self, interface: Interface, radii: int = 160) -> Pulled:
+        """Return the pull-offs of relaxed contacts and a rigid machine."""
+        work, gap, growth = interface
+        return self.forward.pulled(work, gap, self.speed, self.load, radii, growth)
+
     def log_forces(self, solids: Sequence[Any], interface: Interface) -> Array:
         """Return ln of the pull-off forces of neighbouring solids, shape (solids, n)."""
-        work, gap, growth = interface
-        pulled = (
-            self.forward.beside(solid).pulled(work, gap, self.speed, self.load, _RADII, growth)
-            for solid in solids
-        )
-        return np.log([one.force for one in pulled])
+        others = (self._replace(forward=self.forward.beside(solid)) for solid in solids)
+        return np.log([one.pulled(interface, _RADII).force for one in others])
 
     def slower(self, error: float, interface: Interface) -> Array:
         """Return the change of ln(force) by a relative error of all times, shape (n,)."""

@@ -12,7 +12,7 @@ them the model. Where the forces depart from the model by a power of the speed, 
 continues it; where the fit does not describe the tests, the band is widened to hold them.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from statistics import NormalDist
 from typing import Any
@@ -24,14 +24,13 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack.repeats import SAME
 from viscotack.model.geometry import Layer
-from viscotack.model.protocol import Move
 
 from .contact_time import PER_DECADE
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
 from .edge_fit import EdgeFit, edge_forces, refuse_far
-from .forward import law_of
+from .forward import Interface, law_of
 from .likelihood import Posterior
-from .pull_off import History
+from .pull_off import Trial
 from .rate_fit import RateSeriesFit
 from .search import SeriesFit
 from .simulated_tests import by_theory, tested
@@ -122,12 +121,8 @@ def forecast_rates(
     ValueError
         If an argument is invalid.
     """
-    v = np.atleast_1d(np.asarray(speed, dtype=float))
+    trials = _trials(fit, speed, preload, dwell=dwell, approach_speed=approach_speed)
     given, (work, gap, law) = fit.given, fit.interface
-    load = float(given.load.mean()) if preload is None else preload
-    _check(v, preload=load, dwell=dwell, approach_speed=approach_speed)
-    if (dwell is None) != (approach_speed is None):
-        raise InputError("dwell and approach_speed must be given together")
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
     if law is not None and passport.temperature != fit.passport.temperature:
         raise InputError(
@@ -135,38 +130,35 @@ def forecast_rates(
             f"the temperature of the series, {fit.passport.temperature:g} K, or measure a series "
             f"at {passport.temperature:g} K"
         )
-    known, loaded = fit.forward.beside(passport.material), np.full(v.size, load)
-    time, grown = None, np.ones(v.size)
+    known = fit.forward.beside(passport.material)
+    tests = fit.search.tests._replace(forward=known, passport=passport).of(trials)
+    v, time, grown = tests.speed, None, np.ones(len(trials))
     if given.decades is not None:
         time = np.full(v.size, given.middle_time)
         if dwell is not None:
-            curves = (known.curve(work, gap, float(each), load, law) for each in v)
+            load = float(tests.load[0])
+            curves = (known.curve(work, gap, each, load, law) for each in v.tolist())
             time = dwell + np.array([_way(*curve, given.stiffness) for curve in curves]) / v
         grown += fit.best.values[PER_DECADE] * np.log10(time / given.middle_time)
-    middle = known.pulled(work * grown, gap, v, load, growth=law)
-    pressed: tuple[tuple[Move, ...], ...] = ()
-    if dwell is not None and approach_speed is not None:
-        pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
-    tests = SphereTests(known, passport, v, loaded, given.stiffness, pressed)
+    middle = tests.pulled(Interface(work * grown, gap, law))
     changed = tests.changed(fit.interface)
     chain = fit.sampled()
     draws = chain.thinned(_DRAWS)
     if law is not None or isinstance(known.body, Layer):
         found = by_theory(changed, v, given.theory_error)
     else:
-        likely = np.log(np.vstack([(work, gap), draws[:, :2]]))
+        columns = draws["work_of_adhesion"], draws["equilibrium_gap"]
+        likely = np.log(np.vstack([(work, gap), np.hstack(columns)]))
         found = tested(likely, changed, tests, given.theory_error)
-    moved, left = conditioned(fit, [tests], draws, found.model, time)
     forecast = _banded(
         fit,
         v,
         chain,
-        moved=moved,
-        left=left,
+        conditioned(fit, [tests], draws, found.model, time),
         ratio=found.ratio,
         model=middle.force * np.median(np.atleast_2d(found.ratio), axis=0),
         comparable=passport.temperature == fit.passport.temperature and dwell is None,
-        preload=load,
+        preload=float(tests.load[0]),
         temperature=passport.temperature,
         dwell=dwell,
         contact_time=time,
@@ -188,32 +180,25 @@ def forecast_edge(
     ValueError
         If an argument is invalid.
     """
-    v = np.atleast_1d(np.asarray(speed, dtype=float))
-    given, own = fit.given, fit.given.speed
-    load = float(given.load.mean()) if preload is None else preload
-    _check(v, preload=load)
+    tests = fit.search.tests.of(_trials(fit, speed, preload))
+    v, given, own = tests.speed, fit.given, fit.given.speed
     refuse_far(given, v)
     chain = fit.sampled()
-    names, draws = list(fit.best.values), chain.thinned(_DRAWS)
-    laws = {name: draws[:, i : i + 1] for i, name in enumerate(names)}
-    both, m = np.concatenate([own, v]), own.size
-    loads = np.concatenate([given.load, np.full(v.size, load)])
+    both, loads = np.concatenate([own, v]), np.concatenate([given.load, tests.load])
     decades = None if given.decades is None else np.append(given.decades, np.zeros(v.size))
-    forces = edge_forces(given, laws, both, loads, decades)
+    forces = edge_forces(given, chain.thinned(_DRAWS), both, loads, decades)
     spread = ModelError.of_theory(given.theory_error, both.size).covariance(both)
     if fit.trend:
         spread = spread + trend_covariance(both, own, fit.between_speeds)
-    gain, left = _left_open(fit, spread)
     forecast = _banded(
         fit,
         v,
         chain,
-        moved=np.log(forces[:, m:]) + np.log(given.force / forces[:, :m]) @ gain.T,
-        left=left,
+        _given_series(fit, spread, forces[:, : own.size], forces[:, own.size :]),
         ratio=np.ones(v.size),
-        model=edge_forces(given, fit.best.values, v, load),
+        model=edge_forces(given, fit.best.values, v, tests.load),
         comparable=True,
-        preload=load,
+        preload=float(tests.load[0]),
         temperature=fit.passport.temperature,
         dwell=None,
         contact_time=None if given.decades is None else np.full(v.size, given.middle_time),
@@ -225,9 +210,8 @@ def _banded(
     fit: SeriesFit,
     v: Array,
     chain: Posterior,
+    logs: tuple[Array, Array],
     *,
-    moved: Array,
-    left: Array,
     ratio: Array,
     model: Array,
     comparable: bool,
@@ -240,8 +224,8 @@ def _banded(
     ----------
     fit, v, chain : SeriesFit, ndarray, Posterior
         Fit of the series, speeds [m/s] and the sampled interfaces.
-    moved, left, ratio : ndarray
-        ln of the forces of sampled interfaces, their covariance, and a factor on the forces.
+    logs, ratio : (ndarray, ndarray), ndarray
+        ln of the forces of sampled interfaces with their covariance, and a factor on the forces.
     model : ndarray
         Forces of the model alone [N].
     comparable : bool
@@ -251,6 +235,7 @@ def _banded(
     **known
         Temperature, dwell and time in contact of the forecast.
     """
+    moved, left = logs
     rng = np.random.default_rng(0)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
     sample = (np.exp(moved + noise) * ratio).reshape(-1, v.size)
@@ -308,18 +293,15 @@ def _departure(fit: SeriesFit, speed: Array, part: float) -> Array:
 
 def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, ...]:
     """Return traction laws of interfaces sampled from the posterior of a series."""
-    growth = fit.growth
-    laws = []
-    for w, gap, *more in fit.sampled(seed).thinned(count).tolist():
-        grows = None if growth is None else growth.opening.growth(gap, *more[:2])
-        laws.append(law_of(w, gap, grows))
-    return tuple(laws)
+    draws = fit.sampled(seed).thinned(count)
+    rows = (dict(zip(draws, row, strict=True)) for row in np.hstack(list(draws.values())).tolist())
+    return tuple(law_of(*fit.search.interface(row)) for row in rows)
 
 
 def conditioned(
     fit: RateSeriesFit,
     asked: Sequence[SphereTests],
-    draws: Array,
+    draws: Mapping[str, Array],
     model: ModelError,
     time: Array | None = None,
 ) -> tuple[Array, Array]:
@@ -331,8 +313,8 @@ def conditioned(
         Fit of the series.
     asked : sequence of SphereTests
         The n tests.
-    draws : ndarray, shape (K, parameters)
-        Sampled interfaces.
+    draws : mapping
+        Sampled unknowns, each of shape (K, 1).
     model : ModelError
         Errors of the forces of the tests.
     time : ndarray, optional
@@ -346,55 +328,51 @@ def conditioned(
         Covariance about it, by the errors of theory, material, temperature and machine that the
         series leaves open.
     """
-    given, m = fit.given, len(fit.series)
-    own = fit.search.tests
+    given, search, own = fit.given, fit.search, fit.search.tests
     speed = np.concatenate([own.speed, *(x.speed for x in asked)])
     # the error by the compliance of the machine, extrapolated to the wanted speeds
-    ratio, order = fit.search.ratio, np.argsort(own.speed)
+    ratio, order = search.ratio, np.argsort(own.speed)
     softer = given.compliance_uncertainty * ratio.log_ratio
-    beyond = np.interp(np.log(speed[m:]), np.log(own.speed[order]), softer[order])
+    beyond = np.interp(np.log(speed[own.speed.size :]), np.log(own.speed[order]), softer[order])
     trend = np.zeros((speed.size, speed.size))
     if fit.trend:
         trend = trend_covariance(speed, own.speed, fit.between_speeds)
-    tests, error = [own, *asked], fit.search.model.joined(model)
-    softer = np.append(softer, beyond)
-    spread = joint_covariance(given, tests, fit.interface, error, softer, trend)
-    gain, left = _left_open(fit, spread)
-    works, gaps, laws = draws[:, :1], draws[:, 1:2], None
-    if fit.growth is not None:
-        laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:4])
-    measured, wanted = works, works
+    error, softer = search.model.joined(model), np.append(softer, beyond)
+    spread = joint_covariance(given, [own, *asked], fit.interface, error, softer, trend)
+    measured = wanted = interface = search.interface(draws)
     if given.decades is not None:
-        measured = works * (1 + draws[:, -1:] * given.decades)
+        measured = interface._replace(work=interface.work * search.grown(draws))
         if time is not None:
-            wanted = works * (1 + draws[:, -1:] * np.log10(time / given.middle_time))
-    at = own.forward.pulled(measured, gaps, own.speed, own.load, growth=laws).force
-    others = [x.forward.pulled(wanted, gaps, x.speed, x.load, growth=laws).force for x in asked]
+            more = draws[PER_DECADE] * np.log10(time / given.middle_time)
+            wanted = interface._replace(work=interface.work * (1 + more))
     factor = fit.yielding
     if ratio.known is not None:
-        factor = ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
-    forecast: Array = np.log(np.concatenate(others, axis=1))
-    return forecast + np.log(given.force / (at * factor)) @ gain.T, left
+        factor = ratio({name: x[:, 0] for name, x in draws.items()})
+    forces = np.concatenate([x.pulled(wanted).force for x in asked], axis=1)
+    return _given_series(fit, spread, own.pulled(measured).force * factor, forces)
 
 
-def _left_open(fit: SeriesFit, spread: Array) -> tuple[Array, Array]:
-    """Return the gain by the measured forces, and the covariance of others that they leave.
+def _given_series(fit: SeriesFit, spread: Array, own: Array, others: Array) -> tuple[Array, Array]:
+    """Return ln of forces, given the measured ones, and the covariance that these leave.
 
-    `spread` is the covariance of the errors of the measured forces, without noise, and the others.
+    `own` and `others` are forces of the model at the measured and at other tests, and `spread` is
+    the covariance of the errors of both, without noise.
     """
     m = len(fit.series)
     # covariance of the fit: noise, theory and material of the measured forces
     gain = np.asarray(np.linalg.solve(fit.search.spread, spread[:m, m:]).T, dtype=np.float64)
-    return gain, spread[m:, m:] - gain @ spread[:m, m:]
+    logs = np.log(others) + np.log(fit.given.force / own) @ gain.T
+    return logs, spread[m:, m:] - gain @ spread[:m, m:]
 
 
-def _check(speed: Array, **numbers: float | None) -> None:
-    """Raise an error for speeds or other numbers that are out of their ranges."""
-    if not (speed.ndim == 1 and 0 < speed.size <= _MOST and np.all(speed > 0)):
-        raise InputError(f"a forecast needs 1 to {_MOST} positive speeds [m/s], got {speed!r}")
-    for name, value in numbers.items():
-        if value is not None and not (value > 0 or (name == "dwell" and value == 0)):
-            raise InputError(f"{name} must be positive, got {value}")
+def _trials(
+    fit: SeriesFit, speed: npt.ArrayLike, preload: float | None, **history: float | None
+) -> list[Trial]:
+    """Return the tests of a forecast; raise an error for numbers that are out of their ranges."""
+    v = np.atleast_1d(np.asarray(speed, dtype=float))
+    if not (v.ndim == 1 and 0 < v.size <= _MOST):
+        raise InputError(f"a forecast needs 1 to {_MOST} speeds [m/s], got {v.size}")
+    return [fit.search.tests.stated(Trial(each, preload, **history)) for each in v.tolist()]
 
 
 def _slower(fit: SeriesFit, speed: Array, preload: float, comparable: bool) -> tuple[Array, Array]:

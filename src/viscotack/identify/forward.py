@@ -137,14 +137,14 @@ class Interface(NamedTuple):
 
     Attributes
     ----------
-    work, gap : float
+    work, gap : float or ndarray
         Work of adhesion [J/m2] and range of attraction h0 [m].
     growth : Growth or None
         Growth with the opening speed.
     """
 
-    work: float
-    gap: float
+    work: Any
+    gap: Any
     growth: Growth | None = None
 
 

@@ -15,6 +15,7 @@ interface without growth.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -63,7 +64,7 @@ class Opening:
         more = np.where(more > _LEAST_TOLD, more, 0.0)
         return Growth(reference_speed(more, self.speed(gap), exponent), exponent)
 
-    def of(self, values: Mapping[str, float]) -> Growth:
+    def of(self, values: Mapping[str, Any]) -> Growth:
         """Return the growth law of a set of parameters."""
         return self.growth(values["equilibrium_gap"], values[STRENGTHENING], values[EXPONENT])
 

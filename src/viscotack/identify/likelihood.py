@@ -291,9 +291,10 @@ class Posterior:
         names = [one.name for one in self.parameters]
         return self.values[:, names.index(name)]
 
-    def thinned(self, count: int) -> Array:
-        """Select evenly a number of samples, shape (count, parameters)."""
-        return self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
+    def thinned(self, count: int) -> dict[str, Array]:
+        """Select evenly a number of samples: parameter -> values, shape (count, 1)."""
+        some = self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
+        return {one.name: some[:, i : i + 1] for i, one in enumerate(self.parameters)}
 
 
 def posterior(

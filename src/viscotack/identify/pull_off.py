@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.lab.tack.repeats import Repeats, pooled, same_speeds, temperature_of
 from viscotack.model.protocol import Approach, AtForce, Dwell, Move
@@ -110,6 +111,68 @@ class History:
         approach = Approach(self.approach_speed, to=AtForce(self.peak))
         hold = "drive" if preload < _HELD * self.peak else "force"
         return (approach, Dwell(self.dwell, hold=hold)) if self.dwell > 0 else (approach,)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A test: a sphere that is pulled off at a speed.
+
+    Parameters
+    ----------
+    speed : float
+        Retraction speed [m/s].
+    preload : float or None
+        Force under which the contact rests [N]; by default the mean preload of the series.
+    radius : float or None
+        Radius of the sphere [m]; by default that of the series.
+    dwell, approach_speed : float or None
+        Time under the preload [s] after an approach at this speed [m/s]; by default the contact
+        relaxes fully.
+
+    Examples
+    --------
+    >>> Trial(1e-4, preload=2e-3).dwell is None
+    True
+    """
+
+    speed: float
+    preload: float | None = None
+    radius: float | None = None
+    dwell: float | None = None
+    approach_speed: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("speed", "preload", "radius", "approach_speed"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < np.inf:
+                raise InputError(
+                    f"the {name} of a test must be positive, got {value!r}", field=name
+                )
+        if (self.dwell is None) != (self.approach_speed is None):
+            lost = "dwell" if self.dwell is None else "approach_speed"
+            words = "a dwell needs the speed of the approach, and the other way round"
+            raise InputError(words, field=lost)
+        if self.dwell is not None and not self.dwell >= 0:
+            raise InputError(f"a dwell must not be negative, got {self.dwell!r} s", field="dwell")
+
+    @property
+    def words(self) -> str:
+        """The test in words."""
+        parts = [readable(self.speed, "m/s", digits=3)]
+        for value, unit, words in (
+            (self.preload, "N", "under"),
+            (self.radius, "m", "R ="),
+            (self.dwell, "s", "dwell"),
+        ):
+            if value is not None:
+                parts.append(f"{words} {readable(value, unit, digits=3)}")
+        return ", ".join(parts)
+
+    def moves(self) -> tuple[Move, ...]:
+        """Return the moves before the retraction; empty for a contact that relaxes."""
+        if self.preload is None or self.dwell is None or self.approach_speed is None:
+            return ()
+        return History(self.approach_speed, self.preload, self.dwell).moves(self.preload)
 
 
 @dataclass(frozen=True)

@@ -23,10 +23,10 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.units import readable
 
-from .covariances import ModelError, SphereTests
+from .covariances import ModelError
 from .forecasting import conditioned
 from .forward import Interface
-from .pull_off import History
+from .pull_off import Trial
 from .rate_fit import RateSeriesFit
 from .search import LEAST_TABOR
 
@@ -35,49 +35,6 @@ _DRAWS, _STEP, _MOST = 100, 0.05, 500
 # Least noise of a test [-]; a rig without scatter would make every test decisive.
 _QUIET = 1e-3
 INTERFACE = "interface"
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A test: a sphere that is pulled off at a speed.
-
-    Parameters
-    ----------
-    speed : float
-        Retraction speed [m/s].
-    preload : float or None
-        Force under which the contact rests [N]; by default the mean preload of the series.
-    radius : float or None
-        Radius of the sphere [m]; by default that of the series.
-    dwell, approach_speed : float or None
-        Time under the preload [s] after an approach at this speed [m/s]; by default the contact
-        relaxes fully.
-
-    Examples
-    --------
-    >>> Trial(1e-4, preload=2e-3).dwell is None
-    True
-    """
-
-    speed: float
-    preload: float | None = None
-    radius: float | None = None
-    dwell: float | None = None
-    approach_speed: float | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("speed", "preload", "radius", "approach_speed"):
-            value = getattr(self, name)
-            if value is not None and not 0 < value < np.inf:
-                raise InputError(
-                    f"the {name} of a test must be positive, got {value!r}", field=name
-                )
-        if (self.dwell is None) != (self.approach_speed is None):
-            lost = "dwell" if self.dwell is None else "approach_speed"
-            words = "a dwell needs the speed of the approach, and the other way round"
-            raise InputError(words, field=lost)
-        if self.dwell is not None and not self.dwell >= 0:
-            raise InputError(f"a dwell must not be negative, got {self.dwell!r} s", field="dwell")
 
 
 @dataclass(frozen=True)
@@ -171,8 +128,9 @@ def next_tests(
     about_interface = isinstance(wanted, str)
     if isinstance(wanted, str) and wanted != INTERFACE:
         raise InputError(f"wanted must be tests or {INTERFACE!r}, got {wanted!r}")
-    asked = [] if isinstance(wanted, str) else [_stated(fit, one) for one in wanted]
-    tests = [_stated(fit, one) for one in candidates]
+    own = fit.search.tests
+    asked = [] if isinstance(wanted, str) else [own.stated(one) for one in wanted]
+    tests = [own.stated(one) for one in candidates]
     if not 0 < len(tests) <= _MOST or len(asked) > _MOST or not (about_interface or asked):
         raise InputError(
             f"give 1 to {_MOST} candidates and 1 to {_MOST} wanted tests; got {len(tests)} and "
@@ -183,12 +141,12 @@ def next_tests(
     if noise is not None and not 0 < noise < 1:
         raise InputError(f"the noise must lie between 0 and 1, got {noise:g}")
     one = max(noise or noise_of(fit), _QUIET)
-    own = {each: _valid(fit, each) for each in dict.fromkeys([*tests, *asked])}
+    why = {each: _invalid(fit, each) for each in dict.fromkeys([*tests, *asked])}
     for each in asked:
-        if own[each]:
-            raise OutOfRange(f"no forecast of {trial_words(each)}: {own[each]}")
-    refused = tuple((each, own[each]) for each in tests if own[each])
-    tests = [each for each in tests if not own[each]]
+        if why[each]:
+            raise OutOfRange(f"no forecast of {each.words}: {why[each]}")
+    refused = tuple((each, why[each]) for each in tests if why[each])
+    tests = [each for each in tests if not why[each]]
     if not tests:
         raise OutOfRange(f"the theory holds for none of the tests: {refused[0][1]}")
     mean, covariance = _joint(fit, [*tests, *asked], about_interface)
@@ -228,49 +186,12 @@ def noise_of(fit: RateSeriesFit) -> float:
     return float(np.median([np.linalg.norm(row) for row in rows]))
 
 
-def trial_words(trial: Trial) -> str:
-    """Return a test in words."""
-    parts = [readable(trial.speed, "m/s", digits=3)]
-    for value, unit, words in (
-        (trial.preload, "N", "under"),
-        (trial.radius, "m", "R ="),
-        (trial.dwell, "s", "dwell"),
-    ):
-        if value is not None:
-            parts.append(f"{words} {readable(value, unit, digits=3)}")
-    return ", ".join(parts)
-
-
-def _stated(fit: RateSeriesFit, trial: Trial) -> Trial:
-    """Return a test with preload and radius."""
-    return replace(
-        trial,
-        preload=float(fit.given.load.mean()) if trial.preload is None else trial.preload,
-        radius=fit.forward.radius if trial.radius is None else trial.radius,
-    )
-
-
-def _tests(fit: RateSeriesFit, trials: Sequence[Trial]) -> SphereTests:
-    """Return trials of one sphere as tests, with approach and dwell if all of them have these."""
-    radius, forward = trials[0].radius, fit.forward
-    if radius is not None and radius != forward.radius:
-        forward = replace(forward, radius=radius)
-    speed, load = (np.array([getattr(x, n) for x in trials], float) for n in ("speed", "preload"))
-    moves = tuple(
-        History(x.approach_speed, P, x.dwell).moves(P)
-        for x, P in zip(trials, load.tolist(), strict=True)
-        if x.dwell is not None and x.approach_speed is not None
-    )
-    moves = moves if len(moves) == len(trials) else ()
-    return SphereTests(forward, fit.passport, speed, load, fit.given.stiffness, moves)
-
-
-def _valid(fit: RateSeriesFit, trial: Trial) -> str:
+def _invalid(fit: RateSeriesFit, trial: Trial) -> str:
     """Return why the theory does not hold for a test, or ""."""
-    one, (work, gap, law) = _tests(fit, [trial]), fit.interface
+    one = fit.search.tests.of([trial])
     try:
         one.forward.check(moves=one.moves)
-        found = one.forward.pulled(work, gap, one.speed, one.load, growth=law)
+        found = one.pulled(fit.interface)
     except InputError as error:
         return str(error)
     effective = float(found.effective_tabor[0])
@@ -287,9 +208,10 @@ def _joint(
 ) -> tuple[Array, Array]:
     """Return mean and joint covariance of ln of the forces, and of work and range if wanted."""
     draws = fit.sampled().thinned(_DRAWS)
+    interfaces = np.log(np.hstack([draws["work_of_adhesion"], draws["equilibrium_gap"]]))
     order = sorted(range(len(tests)), key=lambda i: tests[i].radius or 0.0)
     groups = [
-        _tests(fit, list(same))._replace(moves=())
+        fit.search.tests.of(list(same))._replace(moves=())
         for _, same in groupby((tests[i] for i in order), key=lambda x: x.radius)
     ]
     model = ModelError.of_theory(fit.given.theory_error, len(tests))
@@ -298,30 +220,30 @@ def _joint(
     moved, left = moved[:, back], left[np.ix_(back, back)]
     for i, each in enumerate(tests):
         if each.dwell is not None:
-            moved[:, i] += _history_effect(fit, each, draws)
+            moved[:, i] += _history_effect(fit, each, interfaces)
     if about_interface:
-        moved = np.concatenate([moved, np.log(draws[:, :2])], axis=1)
+        moved = np.concatenate([moved, interfaces], axis=1)
         left = np.pad(left, (0, 2))
     return moved.mean(axis=0), np.cov(moved.T) + left
 
 
-def _history_effect(fit: RateSeriesFit, trial: Trial, draws: Array) -> Array:
+def _history_effect(fit: RateSeriesFit, trial: Trial, interfaces: Array) -> Array:
     """Return ln of the ratio of the force after a dwell to that of a relaxed contact.
 
-    It is linear in ln of work and range about the most likely interface.
+    It is linear in `interfaces`, ln of work and range, about the most likely interface.
     """
-    middle, tests = np.log(fit.interface[:2]), _tests(fit, [trial])
+    middle, tests = np.log(fit.interface[:2]), fit.search.tests.of([trial])
 
     def ratio(at: Array) -> float:
         work, gap = np.exp(at).tolist()
         found = tests.changed(Interface(work, gap, fit.interface.growth))
         if why := str(found.refused[0]):
-            raise OutOfRange(f"{trial_words(trial)}: {why}")
+            raise OutOfRange(f"{trial.words}: {why}")
         return float(np.log(found.ratio[0]))
 
     own = ratio(middle)
     slopes = np.array([(ratio(middle + step) - own) / _STEP for step in _STEP * np.eye(2)])
-    return own + (np.log(draws[:, :2]) - middle) @ slopes
+    return own + (interfaces - middle) @ slopes
 
 
 def _measured(covariance: Array, number: int, noise: float) -> Array:

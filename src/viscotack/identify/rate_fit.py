@@ -78,7 +78,7 @@ class RateSeriesFit(SeriesFit):
     @property
     def interface(self) -> Interface:
         """The most likely interface."""
-        return self.search.interface(self.best)
+        return self.search.interface(self.best.values)
 
     @property
     def equilibrium_gap(self) -> float:
@@ -230,7 +230,7 @@ def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
 
     Also return the ratios of the forces at the interface, and whether they depend on it.
     """
-    series, interface = search.series, search.interface(best)
+    series, interface = search.series, search.interface(best.values)
     ratio, changed = yielding_near(series, search.forward, interface)
     own = search.tests
     softer = series.compliance_uncertainty * ratio.log_ratio
@@ -263,7 +263,7 @@ def _check_place(search: Search, best: Best) -> None:
 
     Conditions whose forces are simulated need no theory.
     """
-    series, gap = search.series, search.interface(best).gap
+    series, gap = search.series, search.interface(best.values).gap
     simulated, grown = search.ratio.which, search.grown(best.values)
     if not simulated and search.table.effective(best.values, grown) < LEAST_TABOR:
         raise InputError(
@@ -275,7 +275,7 @@ def _check_place(search: Search, best: Best) -> None:
     if fastest in simulated:
         return
     relaxed = search.tests._replace(moves=()).some(np.array([fastest]))
-    if why := str(relaxed.changed(search.interface(best)).refused[0]):
+    if why := str(relaxed.changed(search.interface(best.values)).refused[0]):
         raise OutOfRange(f"at {series.tests[fastest].at}: {why}")
 
 
@@ -284,14 +284,13 @@ def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
     search, best = found.search, found.best
     if search.opening is None:
         return None
-    series, (work, gap, law) = search.series, search.interface(best)
-    pulled = search.forward.pulled(work, gap, series.speed, series.load, growth=law)
+    pulled = search.tests.pulled(search.interface(best.values))
     without = replace(search, table=plain.table, opening=None).best()
     return FoundGrowth(
-        gap=gap,
+        gap=best.values["equilibrium_gap"],
         strengthening=best.values["strengthening"],
         exponent=best.values["exponent"],
         better_by=max(without.misfit - best.misfit, 0.0),
-        shares=shares_of(series.speed, pulled),
+        shares=shares_of(search.series.speed, pulled),
         opening=search.opening,
     )

@@ -279,10 +279,10 @@ class Search:
             self.forward, one.passport, one.speed, one.load, one.stiffness, one.moves
         )
 
-    def interface(self, best: Best) -> Interface:
-        """Return the interface of some parameters."""
-        growth = None if self.opening is None else self.opening.of(best.values)
-        return Interface(best.values["work_of_adhesion"], best.values["equilibrium_gap"], growth)
+    def interface(self, values: Mapping[str, Any]) -> Interface:
+        """Return the interface of some parameters, or interfaces of arrays."""
+        growth = None if self.opening is None else self.opening.of(values)
+        return Interface(values["work_of_adhesion"], values["equilibrium_gap"], growth)
 
     def forces(self, best: Best) -> Array:
         """Return the pull-off forces of some parameters [N], shape (S,)."""
@@ -351,11 +351,11 @@ def _works(series: RateSeries, energy: float, per_decade: float) -> Array:
 
 def opening_near(plain: Search, best: Best) -> Opening:
     """Return the opening speed at which the strengthening of a series is defined."""
-    series, (w, gap, _) = plain.series, plain.interface(best)
+    interface, speed = plain.interface(best.values), plain.series.speed
     # the crack speed hardly depends on the interface, because the drive sets it
-    edge = plain.forward.pulled(w, gap, series.speed, series.load).crack_speed
-    middle = float(np.exp(np.mean(np.log(np.maximum(edge, series.speed)))))
-    return Opening(middle * w / plain.forward.material.contact_modulus)
+    edge = plain.tests.pulled(interface).crack_speed
+    middle = float(np.exp(np.mean(np.log(np.maximum(edge, speed)))))
+    return Opening(middle * interface.work / plain.forward.material.contact_modulus)
 
 
 def grown(plain: Search, opening: Opening) -> Forward:
