@@ -47,7 +47,7 @@ def small(monkeypatch):
 def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     fit = fitted(forces(LAW), **small)
     truth = {"work_of_adhesion": WORK, "equilibrium_gap": GAP, "exponent": 0.5}
-    opening = float(fit.growth.opening.speed(GAP))
+    opening = float(fit.search.opening.speed(GAP))
     truth["strengthening"] = 1 + (opening / LAW.reference_speed) ** 0.5
     for name, value in truth.items():
         assert fit.intervals[name].low < value < fit.intervals[name].high
@@ -88,7 +88,7 @@ def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
 
 @pytest.mark.parametrize("better_by", [0.0, 4.6, 9.2])
 def test_chance_is_that_of_two_parameters_more(better_by):
-    found = FoundGrowth(GAP, 2.0, 0.5, better_by, (), Opening(1e-12))
+    found = FoundGrowth(2.0, 1e-4, 1e-4, 0.5, better_by, ())
     assert found.chance == pytest.approx(np.exp(-better_by / 2))
 
 

@@ -23,8 +23,6 @@ from viscotack.theory.sphere import edge_law
 from viscotack.units import readable
 
 from .contact_time import PER_DECADE
-from .covariances import ModelError
-from .force_ratios import ForceRatios
 from .forward import Forward
 from .rate_series import RateSeries
 from .search import Search, SeriesFit, Table, lattice, settled
@@ -81,15 +79,8 @@ def identify_edge(series: RateSeries) -> EdgeFit:
         "exponent": np.geomspace(*_EXPONENTS, exponents),
     }
     forces = edge_forces(series, lattice(axes), speed, series.load)
-    model = ModelError.of_theory(series.theory_error, speed.size)
-    search = Search(
-        series,
-        Forward(series.passport.material, series.radius),
-        Table(axes, np.log(forces)[..., None]),
-        series.noise + model.covariance(speed),
-        ForceRatios.of_a_rigid_machine(speed.size),
-        model,
-    )
+    forward = Forward(series.passport.material, series.radius)
+    search = Search.of(series, forward, Table(axes, np.log(forces)[..., None]))
     if series.stiffness is not None:
         values = search.best().values
         stiff = series.stiffness / (1 + series.compliance_uncertainty)

@@ -29,9 +29,12 @@ from .forward import Forward, Growth, Pulled
 from .likelihood import Parameter
 
 STRENGTHENING, EXPONENT = "strengthening", "exponent"
-# The largest strengthening searched; exponents searched, and those of the lattice.
+# The largest strengthening searched, the unknowns of growth, and exponents of the lattice.
 LARGEST = 30.0
-EXPONENTS = (0.2, 0.8)
+UNKNOWNS = (
+    Parameter(STRENGTHENING, 1.0, LARGEST, 2.0),
+    Parameter(EXPONENT, 0.2, 0.8, 0.4, logarithmic=False),
+)
 _LATTICE = (0.2, 0.32, 0.5, 0.8)
 # Of the lattice: its least growth, its margin beyond the largest one, and how much faster similar
 # solids may be.
@@ -96,42 +99,25 @@ class FoundGrowth:
 
     Parameters
     ----------
-    gap : float
-        Fitted range of attraction [m].
     strengthening : float
         Strength over that at rest, at `opening_speed`.
-    exponent : float
-        n of the Gent-Schultz law [-].
+    opening_speed : float
+        Opening speed of the gap under an edge in the middle of the series [m/s].
+    reference_speed, exponent : float
+        v0 [m/s] and n of the Gent-Schultz law; v0 is infinite without growth.
     better_by : float
         Reduction of the misfit compared with the best interface without growth, which has two
         parameters fewer.
     shares : tuple of Share
         Contributions of bulk and interface at the speeds of the series.
-    opening : Opening
-        Opening speed at which the strengthening is defined, for any range.
     """
 
-    gap: float
     strengthening: float
+    opening_speed: float
+    reference_speed: float
     exponent: float
     better_by: float
     shares: tuple[Share, ...]
-    opening: Opening
-
-    @property
-    def opening_speed(self) -> float:
-        """Opening speed of the gap under an edge in the middle of the series [m/s]."""
-        return float(self.opening.speed(self.gap))
-
-    @property
-    def law(self) -> Growth:
-        """Reference speed and exponent."""
-        return self.opening.growth(self.gap, self.strengthening, self.exponent)
-
-    @property
-    def reference_speed(self) -> float:
-        """v0 of the law [m/s]; infinite without growth."""
-        return float(self.law.reference_speed)
 
     @property
     def chance(self) -> float:
@@ -152,14 +138,6 @@ def growing(forward: Forward, opening: Opening, gaps: tuple[float, float]) -> Fo
     )
     kept = partial(forward.stored, ("lattice", *given))
     return replace(forward, lattice=GrowingCracks(forward.material, *given, kept=kept))
-
-
-def growth_parameters() -> tuple[Parameter, Parameter]:
-    """Return the unknowns of growth."""
-    return (
-        Parameter(STRENGTHENING, 1.0, LARGEST, 2.0),
-        Parameter(EXPONENT, *EXPONENTS, 0.4, logarithmic=False),
-    )
 
 
 def shares_of(speed: Array, pulled: Pulled) -> tuple[Share, ...]:

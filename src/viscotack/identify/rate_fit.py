@@ -26,7 +26,7 @@ from .covariances import joint_covariance, shift_covariance
 from .edge_fit import EdgeFit, identify_edge
 from .force_ratios import Simulations, yielding_near
 from .forward import Changed, Forward, Interface
-from .growth import FoundGrowth, shares_of
+from .growth import FoundGrowth, growing, shares_of
 from .likelihood import Best
 from .pull_off import PullOff
 from .rate_series import RateSeries
@@ -36,7 +36,6 @@ from .search import (
     SeriesFit,
     Settled,
     closely,
-    grown,
     opening_near,
     settled,
     widely,
@@ -192,10 +191,10 @@ def _located(
         if series.growth:
             if opening is None:
                 opening = opening_near(plain, best)
-                forward = grown(plain, opening)
                 # the lattice does not include the larger ranges that slower speeds alone would
                 # allow
-                most = float(plain.table.axes["equilibrium_gap"][-1])
+                least_gap, *_, most = plain.table.axes["equilibrium_gap"].tolist()
+                forward = growing(forward, opening, (least_gap, most))
                 series = replace(series, gaps=(series.gaps[0], most))
             search = widely(forward, plain, opening)
             best = search.best()
@@ -287,10 +286,10 @@ def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
     pulled = search.tests.pulled(search.interface(best.values))
     without = replace(search, table=plain.table, opening=None).best()
     return FoundGrowth(
-        gap=best.values["equilibrium_gap"],
         strengthening=best.values["strengthening"],
+        opening_speed=float(search.opening.speed(best.values["equilibrium_gap"])),
+        reference_speed=float(search.opening.of(best.values).reference_speed),
         exponent=best.values["exponent"],
         better_by=max(without.misfit - best.misfit, 0.0),
         shares=shares_of(search.series.speed, pulled),
-        opening=search.opening,
     )

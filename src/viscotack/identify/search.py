@@ -4,7 +4,7 @@ Without growth one table covers all unknowns. With growth a coarse table locates
 interfaces, and a fine table covers only these.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self
@@ -23,7 +23,7 @@ from .contact_time import PER_DECADE, FoundAgeing
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import ForceRatios
 from .forward import Forward, Interface
-from .growth import EXPONENT, STRENGTHENING, Opening, growing, growth_parameters
+from .growth import EXPONENT, LARGEST, UNKNOWNS, Opening
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff
 from .rate_series import RateSeries
@@ -77,10 +77,7 @@ class Table:
             Number of points of a curve.
         """
         values = lattice(axes)
-        growth = None
-        if opening is not None:
-            gap = values["equilibrium_gap"]
-            growth = opening.growth(gap, values[STRENGTHENING], values[EXPONENT])
+        growth = None if opening is None else opening.of(values)
         work, gap = values["work_of_adhesion"], values["equilibrium_gap"]
         found = forward.pulled(work, gap, speed, preload, radii, growth)
         columns = [np.log(found.force)[..., None], np.log(found.effective_tabor)[..., None]]
@@ -200,7 +197,7 @@ class Search:
     some: npt.NDArray[np.intp] | None = None
 
     @classmethod
-    def begun(cls, forward: Forward, series: RateSeries, least: float = LEAST_TABOR) -> "Search":
+    def begun(cls, forward: Forward, series: RateSeries, least: float = LEAST_TABOR) -> Self:
         """Return a search without growth or machine, down to an effective Tabor number."""
         works = _works(series, 1 / forward.material.modulus_ratio, _WORKS)
         ranges = np.geomspace(*series.gaps, _GAPS)
@@ -216,6 +213,11 @@ class Search:
             )
         axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
         table = Table.of_cracks(forward, series.speed, series.load, axes, travels=series.curves)
+        return cls.of(series, forward, table)
+
+    @classmethod
+    def of(cls, series: RateSeries, forward: Forward, table: Table) -> Self:
+        """Return a search in a table by theory for the machine of the table."""
         model = ModelError.of_theory(series.theory_error, series.speed.size)
         spread = series.noise + model.covariance(series.speed)
         rigid = ForceRatios.of_a_rigid_machine(series.speed.size)
@@ -231,8 +233,7 @@ class Search:
     def objective(self) -> Objective:
         """Objective function over the parameters of the table."""
         table, white = self.table, self.white
-        whole = self.series.curves and self.some is None
-        shapes = _Shapes(self.series) if whole else None
+        shapes = _shapes(self.series) if self.series.curves and self.some is None else None
 
         def residuals(values: Mapping[str, float]) -> Array:
             grown = self.grown(values)
@@ -292,15 +293,10 @@ class Search:
         """Return the best fit from several starts."""
         objective = self.objective
         if self.opening is None:
-            second = self.parameters[1]
-            low, high = second.inner(second.low), second.inner(second.high)
-            held = ({second.name: second.outer(low + x * (high - low))} for x in _STARTS)
-            starts = [objective.best(one) for one in held]
-        else:
-            points, misfits = self.scanned(1)
-            starts = [Best(self._values(x), 0.0, 0) for x in _separate(points, misfits)]
-        found = [objective.best(near=start) for start in starts]
-        return min(found, key=lambda best: best.misfit)
+            return objective.best_along(self.parameters[1], _STARTS)
+        points, misfits = self.scanned(1)
+        starts = [Best(self._values(x), 0.0, 0) for x in _separate(points, misfits)]
+        return objective.best_near(starts)
 
     def intervals(self, best: Best, level: float) -> dict[str, Interval]:
         """Return the intervals of all unknowns."""
@@ -358,12 +354,6 @@ def opening_near(plain: Search, best: Best) -> Opening:
     return Opening(middle * interface.work / plain.forward.material.contact_modulus)
 
 
-def grown(plain: Search, opening: Opening) -> Forward:
-    """Return the forward model of a search with growth."""
-    ranges = plain.table.axes["equilibrium_gap"]
-    return growing(plain.forward, opening, (float(ranges[0]), float(ranges[-1])))
-
-
 def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     """Return a coarse search over all unknowns, with evenly chosen pull-offs."""
     series, ranges = plain.series, plain.table.axes["equilibrium_gap"]
@@ -371,14 +361,13 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     chosen = np.linspace(0, size - 1, min(_COARSE_SPEEDS, size)).round().astype(int)
     some = order[np.unique(chosen)]
     works, gaps, *steps = _COARSE
-    growths = growth_parameters()
     ends = np.log(ranges[[0, -1]])
-    energy = min(growths[0].high / forward.material.modulus_ratio, LARGEST_ENERGY)
+    energy = min(LARGEST / forward.material.modulus_ratio, LARGEST_ENERGY)
     axes = {
         "work_of_adhesion": _works(series, energy, np.log(10) / works),
         "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
     }
-    for one, step in zip(growths, steps, strict=True):
+    for one, step in zip(UNKNOWNS, steps, strict=True):
         axes[one.name] = one.outer_of(_spaced(one.inner(one.low), one.inner(one.high), step))
     case = series.speed[some], series.load[some], axes
     table = Table.of_cracks(forward, *case, opening=opening, radii=_COARSE_RADII)
@@ -623,22 +612,19 @@ def _separate(points: Array, misfits: Array) -> Array:
     return points[found]
 
 
-class _Shapes:
-    """Residuals of travels, normalised by their uncertainty."""
+def _shapes(series: RateSeries) -> Callable[[Array], Array]:
+    """Return a function for the residuals of travels, normalised by their uncertainty."""
+    known = []
+    # the theory's error is fully correlated within a curve, at half its size
+    error = series.theory_error**2 / 2
+    for one in series.tests:
+        assert one.travels is not None, "checked by the series"
+        value, noise = np.array([(x.value, x.uncertainty / x.value) for x in one.travels]).T
+        spread = np.diag(noise**2 + error) + np.full((value.size, value.size), error)
+        known.append((np.log(value), np.linalg.inv(np.linalg.cholesky(spread))))
 
-    def __init__(self, series: RateSeries):
-        self._log, self._white = [], []
-        # the theory's error is fully correlated within a curve, at half its size
-        error = series.theory_error**2 / 2
-        for one in series.tests:
-            assert one.travels is not None, "checked by the series"
-            value = np.array([x.value for x in one.travels])
-            noise = np.array([x.uncertainty for x in one.travels]) / value
-            spread = np.diag(noise**2 + error) + np.full((value.size, value.size), error)
-            self._log.append(np.log(value))
-            self._white.append(np.linalg.inv(np.linalg.cholesky(spread)))
+    def residuals(travels: Array) -> Array:
+        rows = zip(np.log(travels), known, strict=True)
+        return np.concatenate([white @ (one - measured) for one, (measured, white) in rows])
 
-    def __call__(self, travels: Array) -> Array:
-        found = np.log(travels)
-        rows = zip(self._white, found, self._log, strict=True)
-        return np.concatenate([white @ (one - measured) for white, one, measured in rows])
+    return residuals

@@ -498,13 +498,8 @@ def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
 
 def _found(objective: Objective) -> Best:
     """Return the best fit from several starts: the range has several local minima."""
-    found = [objective.best()]
-    for parameter in objective.parameters:
-        if parameter.name in RANGES:
-            low, high = parameter.inner(parameter.low), parameter.inner(parameter.high)
-            for part in _STARTS:
-                held = {parameter.name: parameter.outer(low + part * (high - low))}
-                found.append(objective.best(near=objective.best(held)))
+    ranges = [one for one in objective.parameters if one.name in RANGES]
+    found = [objective.best(), *(objective.best_along(one, _STARTS) for one in ranges)]
     return min(found, key=lambda best: best.misfit)
 
 

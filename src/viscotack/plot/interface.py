@@ -15,7 +15,6 @@ from viscotack.identify import (
     fitted_force,
 )
 from viscotack.identify.contact_time import DwellFit
-from viscotack.identify.forward import Growth
 from viscotack.lab.tack import Cycle
 from viscotack.lab.tack.repeats import same_speeds, temperature_of
 from viscotack.units import readable
@@ -187,11 +186,8 @@ def _fitted_pair(
     near = [group for group in groups if temperature_of(group) == one.temperature]
     same = min(near or groups, key=lambda group: abs(group[0].speed.value - one.true_speed))
     cycle = min(same, key=lambda cycle: abs(cycle.pull_off_force.value - one.force.value))
-    grown = fit.growth
-    growth = None if grown is None else Growth(grown.reference_speed, grown.exponent)
-    depth, force = fit.forward.curve(
-        fit.work_of_adhesion, fit.equilibrium_gap, one.speed, one.preload or 0.0, growth
-    )
+    work, gap, growth = fit.interface
+    depth, force = fit.forward.curve(work, gap, one.speed, one.preload or 0.0, growth)
     force = np.where(force < 0, fit.yielding[i] * force, force)
     fitted = _from_zero_force(depth, force)
     # the free flight is not compared

@@ -158,9 +158,7 @@ class OfUncertainty(Request):
             from viscotack.identify.forward import law_of
 
             fit = fitted(self.study, caller).fit
-            growth = None if fit.growth is None else fit.growth.law
-            law = law_of(fit.work_of_adhesion, fit.equilibrium_gap, growth)
-            problem = replace(problem, traction=law)
+            problem = replace(problem, traction=law_of(*fit.interface))
             sampled["traction"] = interfaces(fit, _INTERFACES, seed=self.seed)
             if fit.ageing is not None:
                 time = readable(fit.given.middle_time, "s", digits=2)
