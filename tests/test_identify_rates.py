@@ -26,10 +26,12 @@ from rate_tests import (
     of_single_cracks,
 )
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
+from viscotack.identify.covariances import SphereTests
 from viscotack.identify.force_ratios import yielding_near
 from viscotack.identify.forward import Forward, Interface
 from viscotack.identify.pull_off import History, travels
 from viscotack.lab.tack import survey
+from viscotack.model.materials import Passport
 from viscotack.model.materials.library import published
 
 PDMS = published("pdms-10-1").material
@@ -68,12 +70,13 @@ def test_the_effect_of_a_machine_follows_powers_of_work_and_range():
     def ratio(work, gap):
         return np.array([1.3, 1.6]) * (work / 0.05) ** 0.2 * (gap / 1e-8) ** -0.4
 
-    def changed(work, gap, speed, load, **more):
-        return SimpleNamespace(ratio=ratio(work, gap), holds=np.array([True, True]))
+    def changed(interface, speed, load, **more):
+        return SimpleNamespace(ratio=ratio(*interface[:2]), holds=np.array([True, True]))
 
-    series: Any = SimpleNamespace(speed=np.array([1e-6, 1e-4]), load=np.ones(2), stiffness=100.0)
     forward: Any = SimpleNamespace(changed=changed)
-    found, _ = yielding_near(series, forward, Interface(0.05, 1e-8, None))
+    speed, passport = np.array([1e-6, 1e-4]), Passport(name="", material=RUBBER)
+    tests = SphereTests(forward, passport, speed, np.ones(2), stiffness=100.0)
+    found, _ = yielding_near(tests, Interface(0.05, 1e-8, None))
     at = {"work_of_adhesion": 0.07, "equilibrium_gap": 3e-8}
     assert found(at) == pytest.approx(ratio(0.07, 3e-8), rel=1e-9)
 
@@ -125,7 +128,8 @@ def test_speeds_at_which_the_theory_does_not_hold_are_excluded():
 @pytest.mark.slow
 def test_a_soft_machine_gives_back_the_interface():
     speeds = np.geomspace(1e-5, 1e-1, 3)
-    soft = Forward(RUBBER, RADIUS).changed(WORK, 50e-9, speeds, np.full(3, PRELOAD), stiffness=20.0)
+    forward, loads = Forward(RUBBER, RADIUS), np.full(3, PRELOAD)
+    soft = forward.changed(Interface(WORK, 50e-9), speeds, loads, stiffness=20.0)
     assert soft.ratio.min() < 0.8 and soft.holds.all()
     fit = fitted(linear(speeds, gap=50e-9) * soft.ratio, 0.01, speeds, stiffness=20.0)
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.01)

@@ -11,7 +11,7 @@ from rate_tests import LENS, measured
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.covariances import SphereTests
 from viscotack.identify.force_ratios import LENGTHS, KnownRatios, Simulations
-from viscotack.identify.forward import Forward
+from viscotack.identify.forward import Forward, Interface
 from viscotack.identify.pull_off import History
 from viscotack.lab.tack import survey
 from viscotack.model.materials import Passport
@@ -59,7 +59,7 @@ def test_a_forecast_three_times_as_fast_is_simulated(fit):
 def test_theory_and_simulation_agree_within_their_errors_where_both_hold():
     speed = 1e-4
     gap = LENGTH / 12
-    changed = FORWARD.changed(WORK, gap, np.array([speed]), np.array([PRELOAD]))
+    changed = FORWARD.changed(Interface(WORK, gap), np.array([speed]), np.array([PRELOAD]))
     theory = FORWARD.pulled(WORK, gap, speed, PRELOAD).force * changed.ratio
     assert not changed.refused
     assert theory == pytest.approx(simulated(12.0, speed), rel=float(changed.band[0]) + 1e-3)

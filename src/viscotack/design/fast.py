@@ -11,7 +11,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.identify.computed import Computed
-from viscotack.identify.forward import Forward
+from viscotack.identify.forward import Forward, Interface
 from viscotack.model.geometry import Bonded, Frictionless, HalfSpace, Layer, PowerLawProfile, Sphere
 from viscotack.model.materials import Material
 from viscotack.model.materials.scaling import scaled
@@ -180,7 +180,7 @@ class FastTier:
         )
         speed, load = np.array([pad.speed]), np.array([pad.preload])
         given = (law.work_of_adhesion, law.equilibrium_gap, speed, load)
-        if reason := str(known.changed(*given).refused[0]):
+        if reason := str(known.changed(Interface(*given[:2]), speed, load).refused[0]):
             raise InputError(reason)
         force = float(known.pulled(*given).force[0])
         error = _DEVIATE * hypot(_ON_LAYER, float(known.layer_error(*given)[0]))

@@ -90,9 +90,8 @@ class SphereTests(NamedTuple):
 
     def changed(self, interface: Interface) -> Changed:
         """Return the effect of machine and moves on the forces."""
-        work, gap, growth = interface
-        more: dict[str, Any] = {"stiffness": self.stiffness, "moves": self.moves, "growth": growth}
-        return self.forward.changed(work, gap, self.speed, self.load, **more)
+        how: dict[str, Any] = {"stiffness": self.stiffness, "moves": self.moves}
+        return self.forward.changed(interface, self.speed, self.load, **how)
 
     def pulled(self, interface: Interface, radii: int = 160) -> Pulled:
         """Return the pull-offs of relaxed contacts and a rigid machine."""
@@ -111,10 +110,6 @@ class SphereTests(NamedTuple):
         solids = [slowed(self.forward.material, exp(sign * error)) for sign in (1, -1)]
         slow, fast = self.log_forces(solids, interface)
         return (slow - fast) / 2
-
-    def layer_error(self, interface: Interface) -> Array:
-        """Return the relative error of the theory by which it grows on thin layers."""
-        return self.forward.layer_error(interface.work, interface.gap, self.speed, self.load)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,12 +175,13 @@ def joint_covariance(
         Covariance by other errors, such as noise.
     """
     speed = np.concatenate([x.speed for x in tests])
-    more = np.concatenate([x.layer_error(interface) for x in tests])
+    work, gap, _ = interface
+    thin = [x.forward.layer_error(work, gap, x.speed, x.load) for x in tests]
     # one thermometer for all tests
     kelvins = series.temperature_error
     errors = [x.slower(shift_error(x.passport, kelvins), interface) for x in tests]
     warmer = np.concatenate([errors[0] * series.time_errors(), *errors[1:]])
-    spread = others + replace(model, theory=model.theory + more).covariance(speed)
+    spread = others + replace(model, theory=model.theory + np.concatenate(thin)).covariance(speed)
     if allowed(series.passport):
         rows = [x.log_forces(_solids(series.passport, x.passport), interface) for x in tests]
         spread = spread + covariance(np.concatenate(rows, axis=1))

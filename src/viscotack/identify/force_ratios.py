@@ -36,7 +36,6 @@ from viscotack.system import Processes, begin_worker
 from .computed import Computed, packaged
 from .covariances import SphereTests
 from .forward import Changed, Forward, Interface
-from .rate_series import RateSeries
 
 ACCURACY = 5e-3
 _WORKERS = 2
@@ -162,15 +161,13 @@ class ForceRatios:
         return found
 
 
-def yielding_near(
-    series: RateSeries, forward: Forward, interface: Interface
-) -> tuple[ForceRatios, Changed]:
+def yielding_near(tests: SphereTests, interface: Interface) -> tuple[ForceRatios, Changed]:
     """Compute the effect of the machine near an interface, and at the interface."""
-    work, gap, growth = interface
-    speed, load, stiffness = series.speed, series.load, series.stiffness
+    tests = tests._replace(moves=())
+    speed, (work, gap, growth) = tests.speed, interface
 
     def log_ratio(w: float, h0: float) -> tuple[Array, Changed]:
-        found = forward.changed(w, h0, speed, load, stiffness=stiffness, growth=growth)
+        found = tests.changed(Interface(w, h0, growth))
         return np.log(found.ratio), found
 
     middle, changed = log_ratio(work, gap)

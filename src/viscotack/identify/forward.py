@@ -243,33 +243,30 @@ class Forward:
 
     def changed(
         self,
-        work: float,
-        gap: float,
+        interface: Interface,
         speed: Array,
         preload: Array,
         *,
         stiffness: float | None = None,
         moves: Sequence[tuple[Move, ...]] = (),
-        growth: Growth | None = None,
-    ) -> "Changed":
+    ) -> Changed:
         """Compute the effect of a spring, or of approach and dwell, on the pull-offs.
 
         Parameters
         ----------
-        work, gap : float
-            Work of adhesion [J/m2] and range h0 [m].
+        interface : Interface
+            The interface.
         speed, preload : ndarray, shape (S,)
             Speed of the drive [m/s] and preload [N].
         stiffness : float, optional
             Stiffness of the machine [N/m]; None for a rigid one.
         moves : sequence of tuple, length S
             Moves of each test before the retraction; empty if all contacts are relaxed.
-        growth : Growth, optional
-            Growth of the interface.
         """
+        work, gap, growth = interface
         self.check(stiffness=stiffness, moves=moves, growth=growth is not None)
         numbers = _numbers(work, gap, speed, preload, *(growth or ()))
-        given = Interface(work, gap, growth), speed, preload, stiffness, moves
+        given = interface, speed, preload, stiffness, moves
         case = ("changed", *numbers, stiffness, moves)
         return Changed(**self.stored(case, lambda: self._changed(*given)._asdict()))
 
@@ -303,7 +300,7 @@ class Forward:
             for v, load, some in zip(speed, loads, moves or [()] * speed.size, strict=True)
         ]
         at_rest = not moves and stiffness is None
-        answers = _at_rest(problems) if at_rest else [_pressed(problem) for problem in problems]
+        answers = _at_rest(problems) if at_rest else problems
         rows = [_force_band_reason(*row) for row in zip(answers, speed, strict=True)]
         force, band, refused = (np.array(column) for column in zip(*rows, strict=True))
         if at_rest:
@@ -465,16 +462,14 @@ def _at_rest(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]
         return [error] * len(problems)
 
 
-def _pressed(problem: Problem) -> CrackContact | InputError:
-    """Return the crack contact of a test with history or spring, or its error."""
+def _force_band_reason(
+    answer: CrackContact | InputError | Problem, speed: float
+) -> tuple[float, float, str]:
+    """Return the pull-off force of an answer or a problem, its band, and why there is none."""
     try:
-        return crack_contact(problem)
+        answer = crack_contact(answer) if isinstance(answer, Problem) else answer
     except InputError as error:
-        return error
-
-
-def _force_band_reason(answer: CrackContact | InputError, speed: float) -> tuple[float, float, str]:
-    """Return the pull-off force of an answer, its band, and why there is none."""
+        answer = error
     if isinstance(answer, InputError):
         return np.nan, 0.0, str(answer)
     if answer.pull_off_force is None:

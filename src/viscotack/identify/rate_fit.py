@@ -109,15 +109,15 @@ class RateSeriesFit(SeriesFit):
         their forces to those of relaxed contacts. Besides the bulk the contact relaxes: its edge
         closes long after the modulus is that at rest.
         """
-        given, (work, gap, growth) = self.given, self.interface
+        given, tests = self.given, self.search.tests
         pasts = {i: one.history for i, one in enumerate(self.series) if one.history}
         dwells = {i: past.dwell for i, past in pasts.items()}
         if given.history or isinstance(given.body, Layer) or not any(dwells.values()):
             return None
         ends = sorted({min(dwells, key=dwells.__getitem__), max(dwells, key=dwells.__getitem__)})
-        speed, load = given.speed[ends], given.load[ends]
-        moves = [pasts[i].moves(given.load[i]) for i in ends]
-        changed = self.forward.changed(work, gap, speed, load, moves=moves, growth=growth)
+        moves = tuple(pasts[i].moves(given.load[i]) for i in ends)
+        shortest_and_longest = tests.some(np.array(ends))._replace(stiffness=None, moves=moves)
+        changed = shortest_and_longest.changed(self.interface)
         return {i: dwells[i] for i in ends}, changed
 
     @cached_property
@@ -230,8 +230,8 @@ def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
     Also return the ratios of the forces at the interface, and whether they depend on it.
     """
     series, interface = search.series, search.interface(best.values)
-    ratio, changed = yielding_near(series, search.forward, interface)
     own = search.tests
+    ratio, changed = yielding_near(own, interface)
     softer = series.compliance_uncertainty * ratio.log_ratio
     noise = series.noise + shift_covariance(series, own, interface)
     spread = joint_covariance(series, [own], interface, search.model, softer, noise)
