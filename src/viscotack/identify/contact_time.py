@@ -63,25 +63,6 @@ _LEAST = 1e-6
 
 
 @dataclass(frozen=True)
-class AgeingFit:
-    """Law of ageing fitted to forces after several times in contact.
-
-    Attributes
-    ----------
-    kind : type
-        :class:`.LogarithmicAgeing` or :class:`.SaturatingAgeing`.
-    parameters : mapping
-        Its constants: "work_of_adhesion", "reference_time" and "sensitivity" or "largest_growth".
-    reference_time : (float, float)
-        Interval of t0 [s]; 0 or inf where the data do not limit it.
-    """
-
-    kind: Any
-    parameters: dict[str, float]
-    reference_time: tuple[float, float]
-
-
-@dataclass(frozen=True)
 class DwellFit:
     """Growth of the work of adhesion with the time in contact.
 
@@ -103,8 +84,16 @@ class DwellFit:
         Relative standard deviation of the forces around the line in the logarithm of the time.
     level : float
         Confidence level.
-    laws : tuple of AgeingFit
-        Laws that the data do not distinguish, the likelier first; empty without growth.
+    kind : type or None
+        :class:`.LogarithmicAgeing` or :class:`.SaturatingAgeing`; None without growth or where both
+        fit.
+    parameters : dict of str to float
+        Constants of the law: "work_of_adhesion", "reference_time" and "sensitivity" or
+        "largest_growth"; empty without a law.
+    reference_time : (float, float)
+        Interval of t0 of the law [s]; 0 or inf where the data do not limit it.
+    both : bool
+        Whether the data do not distinguish the laws.
     """
 
     times: tuple[float, ...]
@@ -116,73 +105,59 @@ class DwellFit:
     chance: float
     scatter: float
     level: float
-    laws: tuple[AgeingFit, ...] = ()
+    kind: Any
+    parameters: dict[str, float]
+    reference_time: tuple[float, float]
+    both: bool
 
     @property
     def law(self) -> str | None:
         """Word of the law; None without growth or where both fit."""
-        return self.laws[0].kind.word if len(self.laws) == 1 else None
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """Constants of the law; empty without a law."""
-        return self.laws[0].parameters if len(self.laws) == 1 else {}
-
-    @property
-    def reference_time(self) -> tuple[float, float]:
-        """Interval of t0 of the law [s]; 0 or inf where the data do not limit it."""
-        return self.laws[0].reference_time if len(self.laws) == 1 else (0.0, inf)
+        return None if self.kind is None else self.kind.word
 
     def line(self, time: Array) -> Array:
         """Return the pull-off forces [N] that are straight in the logarithm of the time [s]."""
-        middle = np.exp(np.log(self.times).mean())
-        growth = self.growth_per_decade * np.log10(time / middle)
+        growth = self.growth_per_decade * np.log10(time / np.exp(np.log(self.times).mean()))
         return 1.5 * np.pi * self.radius * self.work_of_adhesion * (1 + growth)
 
     def force(self, time: Array) -> Array:
         """Return the pull-off forces [N] of the law after times in contact [s]."""
-        law = self.laws[0].kind(equilibrium_gap=1.0, **self.parameters)
+        law = self.kind(equilibrium_gap=1.0, **self.parameters)
         work = law.work_of_adhesion * (1 + law.growth_after(time))
         return 1.5 * np.pi * self.radius * work
 
     @property
     def words(self) -> tuple[str, ...]:
         """Sentences on the result."""
-        middle = float(np.exp(np.log(self.times).mean()))
+        middle = readable(float(np.exp(np.log(self.times).mean())), "s")
         low, high = self.interval
         said = (
-            f"work of adhesion {readable(self.work_of_adhesion, 'J/m2', digits=4)} after "
-            f"{readable(middle, 's')} in contact (JKR); it grows by {self.growth_per_decade:.1%} "
-            f"in a decade of time ({low:.1%} to {high:.1%}, {self.level:.0%})"
+            f"work of adhesion {readable(self.work_of_adhesion, 'J/m2')} after {middle} in contact "
+            f"(JKR); it grows by {self.growth_per_decade:.1%} in a decade of time ({low:.1%} to "
+            f"{high:.1%}, {self.level:.0%})"
         )
         return said, self._of_law()
 
     def _of_law(self) -> str:
         if self.chance > _CHANCE:
             return "no growth with contact time is found beyond the scatter of the tests"
-        if not self.laws:
+        if self.both:
             return (
-                "the force falls with the dwell, which no law of ageing describes; was the solid "
-                "relaxed?"
+                "logarithmic and saturating growth fit alike; more dwells would tell them apart"
             )
-        if self.law is None:
-            return (
-                "logarithmic and saturating growth describe these times alike; longer or shorter "
-                "dwells would distinguish them"
-            )
+        if self.kind is None:
+            return "the force falls with the dwell, which no law describes; was the solid relaxed?"
         low, high = self.reference_time
         until = "any time" if high == inf else readable(high, "s", digits=2)
         if low == 0.0:
+            first = readable(self.times[0], "s", digits=2)
             return (
                 f"{self.law}: the reference time is below {until} and not determined, nor are work "
-                "and sensitivity of a new contact; the stated constants describe times above "
-                f"{readable(self.times[0], 's', digits=2)}"
+                f"and sensitivity of a new contact; the constants describe times above {first}"
             )
-        return (
-            f"{self.law} with a reference time of "
-            f"{readable(self.parameters['reference_time'], 's')} "
-            f"({readable(low, 's', digits=2)} to {until})"
-        )
+        time = readable(self.parameters["reference_time"], "s")
+        between = f"{readable(low, 's', digits=2)} to {until}"
+        return f"{self.law} with a reference time of {time} ({between})"
 
 
 @dataclass(frozen=True)
@@ -286,6 +261,8 @@ def identify_dwell(
     interval = decade * (slope - wide), decade * (slope + wide)
     chance = 2 * float(scipy.stats.t.sf(abs(slope) / error, left))
     grows = chance <= _CHANCE and slope > 0
+    laws = _laws(t, F, max(uncertainty, _LEAST), radius, level) if grows else []
+    kind, constants, ends = laws[0] if len(laws) == 1 else (None, {}, (0.0, inf))
     return DwellFit(
         times=tuple(t.tolist()),
         forces=tuple(F.tolist()),
@@ -296,7 +273,10 @@ def identify_dwell(
         chance=chance,
         scatter=noise,
         level=level,
-        laws=_laws(t, F, max(uncertainty, _LEAST), radius, level) if grows else (),
+        kind=kind,
+        parameters=constants,
+        reference_time=ends,
+        both=len(laws) > 1,
     )
 
 
@@ -384,8 +364,8 @@ def _fitted(x: Array, F: Array) -> tuple[Array, float]:
 
 def _laws(
     t: Array, F: Array, uncertainty: float, radius: float, level: float
-) -> tuple[AgeingFit, ...]:
-    """Return the laws that the data do not distinguish, the likelier first."""
+) -> list[tuple[Any, dict[str, float], tuple[float, float]]]:
+    """Return kind, constants and interval of t0 of the laws that the data do not distinguish."""
     decades = np.log10(t[0]) - _BEYOND, np.log10(t[-1]) + _BEYOND
     t0 = np.logspace(*decades, int(_PER_DECADE * (decades[1] - decades[0])))
     fits = {kind: [_fitted(shape(t / x), F) for x in t0] for kind, (_, shape) in _SHAPES.items()}
@@ -399,7 +379,7 @@ def _laws(
     variance = max(least / freedom, uncertainty**2)
     limit = float(scipy.stats.t.ppf((1 + level) / 2, freedom)) ** 2
     found = []
-    for kind in sorted(misfits, key=lambda each: misfits[each].min()):
+    for kind in _SHAPES:
         misfit = misfits[kind] / variance
         if misfit.min() - least / variance >= _DIFFERENT:
             continue
@@ -417,5 +397,5 @@ def _laws(
             "reference_time": float(t0[at]),
             _SHAPES[kind][0]: float(a[1] / a[0]),
         }
-        found.append(AgeingFit(kind, constants, (low, high)))
-    return tuple(found)
+        found.append((kind, constants, (low, high)))
+    return found
