@@ -211,35 +211,25 @@ class ApproachFit:
     @property
     def words(self) -> tuple[str, ...]:
         """Sentences on the result."""
-        said = [
-            f"range of attraction h0 at most {readable(self.bound, 'm', digits=2)} "
-            f"({self.level:.0%}, one-sided)"
-        ]
+        low, high = (readable(work, "J/m2", digits=3) for work in self.works)
+        jump, noise, level = readable(self.jump_in_force, "N"), self.noise, f"{self.level:.0%}"
+        said = [f"range of attraction h0 at most {_length(self.bound)} ({level}, one-sided)"]
         if self.equilibrium_gap is None or self.likely is None:
-            said.append(
-                f"no attraction above the noise of {readable(self.noise, 'N', digits=2)} is seen "
-                "before the jump-in, so that h0 has an upper bound only"
-            )
+            said.append(f"no attraction above the noise, {readable(noise, 'N', digits=2)}, is seen")
         else:
-            low, high = self.equilibrium_gap.low, self.equilibrium_gap.high
+            seen = readable(self.attraction, "N", digits=2)
+            ends = _length(self.equilibrium_gap.low, self.equilibrium_gap.high)
             said.append(
-                f"the attraction before the jump-in, {readable(self.attraction, 'N', digits=2)}, "
-                f"gives h0 {readable(self.likely, 'm', digits=2)}, "
-                f"{readable(low, 'm', digits=2, to=high)} ({self.level:.0%})"
+                f"attraction of {seen} is seen: h0 {_length(self.likely)} ({ends}, {level})"
             )
-        low, high = self.works
-        said.append(
-            f"tension after the jump-in {readable(self.jump_in_force, 'N', digits=3)}: a work of "
-            f"adhesion of {readable(low, 'J/m2', digits=3)} by JKR, "
-            f"{readable(high, 'J/m2', digits=3)} by the pull-off"
-        )
+        said.append(f"tension after the jump-in {jump}: {low} by JKR, {high} by the pull-off")
         if self.during:
             said.append(f"samples taken during the jump, and left out: {self.during}")
-        said.append(
-            f"the drive moves {readable(self.step, 'm', digits=2)} between samples at the jump; "
-            "finer samples or less noise narrow the range"
-        )
-        return tuple(said)
+        return (*said, f"samples at the jump are {_length(self.step)} apart; finer ones tell more")
+
+
+def _length(value: float, to: float | None = None) -> str:
+    return readable(value, "m", digits=2, to=to)
 
 
 @dataclass(frozen=True, eq=False)
@@ -334,11 +324,8 @@ def _before(cycle: Cycle) -> tuple[_Before, float]:
     falls = -np.diff(force)
     largest = float(falls.max())
     if largest < _JUMP * cycle.noise:
-        raise OutOfRange(
-            "the approach has no jump-in above the noise of "
-            f"{readable(cycle.noise, 'N', digits=2)}; the contact closes without a jump, or closes "
-            "slower than samples are taken"
-        )
+        noise = readable(cycle.noise, "N", digits=2)
+        raise OutOfRange(f"no jump-in above the noise of {noise}, or its samples are too close")
     # a jump may take several samples
     jump = int(np.flatnonzero(falls >= _AS_LARGE * largest)[0])
     if jump + 1 < _FEWEST:
@@ -408,8 +395,8 @@ def identify_approach(
         during, soft = during + 1, _scan(before, works[0], pull_off, **rig)
     if soft.chance < _POOR:
         raise OutOfRange(
-            "attraction of no range fits the forces before the jump-in; they have a baseline that "
-            "is not straight, or another attraction"
+            "no range fits the forces before the jump-in: their baseline is not straight, or the "
+            "attraction is another"
         )
     interval, likely = None, None
     if soft.none - min(soft.chi2) > _SHARP:

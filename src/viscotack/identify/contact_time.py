@@ -142,9 +142,7 @@ class DwellFit:
         if self.chance > _CHANCE:
             return "no growth with contact time is found beyond the scatter of the tests"
         if self.both:
-            return (
-                "logarithmic and saturating growth fit alike; more dwells would tell them apart"
-            )
+            return "logarithmic and saturating growth fit alike; more dwells would tell them apart"
         if self.kind is None:
             return "the force falls with the dwell, which no law describes; was the solid relaxed?"
         low, high = self.reference_time

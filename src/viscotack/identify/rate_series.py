@@ -211,12 +211,10 @@ class RateSeries:
         tests = self.tests
         if self.preload is not None:
             tests = [replace(one, preload=self.preload) for one in tests]
-        for one in tests:
-            if one.preload is None:
-                raise InputError(
-                    f"the pull-off at {one.at} has no preload; give the force [N] under which the "
-                    "contact relaxed (preload)"
-                )
+        if without := [one.at for one in tests if one.preload is None]:
+            raise InputError(
+                f"the pull-off at {without[0]} has no force at its start; give preload"
+            )
         tests = shifted(tests, self.passport, self.growth)
         object.__setattr__(self, "tests", tuple(tests))
         self._check_tests()
@@ -229,13 +227,12 @@ class RateSeries:
         speeds = {one.speed for one in self.tests}
         if self.curves and any(one.travels is None for one in self.tests):
             raise InputError(
-                "whole curves must begin in compression and have points between zero force and "
-                "the pull-off; omit curves, or the tests that do not"
+                "curves must begin in compression and have points up to the pull-off; omit curves"
             )
         if not self.curves and len(speeds) < 2 or not 0 < len(self.tests) <= _MOST:
             raise InputError(
-                f"a rate series needs pull-offs at two or more speeds, up to {_MOST} in all; got "
-                f"{len(self.tests)} at {len(speeds)} speeds"
+                f"a rate series needs up to {_MOST} pull-offs at two or more speeds; got "
+                f"{len(self.tests)} at {len(speeds)}"
             )
         if not np.all([self.speed > 0, self.force > 0, self.load > 0]):
             raise InputError("speeds, pull-off forces and preloads must be positive")
@@ -244,11 +241,8 @@ class RateSeries:
                 "approach and dwell are taken into account for pull-off forces on thick samples "
                 "without growth only; omit history, or curves, growth and thickness"
             )
-        for one in self.tests if self.history else ():
-            if one.history is None:
-                raise InputError(
-                    f"the tests at {one.at} have no speed of their approach; omit history"
-                )
+        if self.history and any(one.history is None for one in self.tests):
+            raise InputError("a test has no speed of its approach; omit history")
 
     def _check_numbers(self) -> None:
         rules = {
@@ -258,16 +252,12 @@ class RateSeries:
             "scatter": 0 <= self.scatter < 1,
             "theory": 0 <= self.theory_error < 1,
             "level": 0 < self.level < 1,
+            "temperature_uncertainty": 0 <= self.temperature_error <= _WARMEST,
             "gaps": 0 < self.gaps[0] < self.gaps[1],
         }
         for name, valid in rules.items():
             if not valid:
                 raise InputError(f"{name} is out of its range: {getattr(self, name)!r}")
-        if not 0 <= self.temperature_error <= _WARMEST:
-            raise InputError(
-                f"the uncertainty of the temperature must lie between 0 and {_WARMEST:g} K, got "
-                f"{self.temperature_error:g} K"
-            )
 
     @cached_property
     def passport(self) -> Passport:
@@ -377,17 +367,14 @@ class RateSeries:
         reference = self.time_error
         if not reference:
             return np.ones(len(self.tests))
-        errors = [
-            shift_error(self.passport, self.temperature_error, at) for at in self.temperatures
-        ]
-        return np.array(errors) / reference
+        kelvins, solid = self.temperature_error, self.passport
+        return np.array([shift_error(solid, kelvins, at) for at in self.temperatures]) / reference
 
     def shift_deviations(self) -> Array:
         """Return the standard deviation of ln(a_T) of each test by the shift law, shape (S,)."""
-        known = (
-            0.0 if at is None else self.passport.shift_deviation(at) for at in self.temperatures
-        )
-        return np.log(10.0) * np.array(list(known))
+        solid = self.passport
+        known = [0.0 if at is None else solid.shift_deviation(at) for at in self.temperatures]
+        return np.log(10.0) * np.array(known)
 
 
 def series_of(
@@ -433,7 +420,6 @@ def series_of(
             known["compliance_uncertainty"] = compliance_uncertainty / soft
     if bounded and isinstance(known.get("body", HalfSpace()), HalfSpace):
         solid = material.material if isinstance(material, Passport) else material
-        level = known.get("level", 0.9)
-        modulus = solid.contact_modulus
-        known["range_bound"] = range_bound(found.cycles, known["radius"], modulus, level)
+        case = known["radius"], solid.contact_modulus, known.get("level", 0.9)
+        known["range_bound"] = range_bound(found.cycles, *case)
     return RateSeries(tests, material=material, **known)
