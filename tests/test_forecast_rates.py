@@ -115,7 +115,7 @@ def test_times_in_doubt_are_speeds_in_doubt(forward):
 
 def test_the_posterior_agrees_with_the_profile(fit):
     chain = posterior(fit.objective, fit.best)
-    ends = np.quantile(np.log(chain.of("work_of_adhesion")), [0.05, 0.95])
+    ends = np.quantile(np.log(chain.values[:, 0]), [0.05, 0.95])
     told = fit.intervals["work_of_adhesion"]
     assert np.diff(ends)[0] == pytest.approx(np.log(told.high / told.low), rel=0.3)
     assert chain.converged

@@ -217,11 +217,9 @@ class ApproachFit:
         if self.equilibrium_gap is None or self.likely is None:
             said.append(f"no attraction above the noise, {readable(noise, 'N', digits=2)}, is seen")
         else:
-            seen = readable(self.attraction, "N", digits=2)
+            seen = f"attraction of {readable(self.attraction, 'N', digits=2)} seen"
             ends = _length(self.equilibrium_gap.low, self.equilibrium_gap.high)
-            said.append(
-                f"attraction of {seen} is seen: h0 {_length(self.likely)} ({ends}, {level})"
-            )
+            said.append(f"{seen}: h0 {_length(self.likely)} ({ends}, {level})")
         said.append(f"tension after the jump-in {jump}: {low} by JKR, {high} by the pull-off")
         if self.during:
             said.append(f"samples taken during the jump, and left out: {self.during}")

@@ -194,10 +194,10 @@ class Objective:
         (parameter,) = (p for p in self.parameters if p.name == name)
         limit = best.misfit + float(chi2.ppf(level, 1))
         middle = parameter.inner(best.values[name])
-        ends = []
-        for bound in (parameter.low, parameter.high):
-            ends.append(self._end(parameter, middle, parameter.inner(bound), limit, best))
-        (low, below, first), (high, above, second) = ends
+        (low, below, first), (high, above, second) = (
+            self._end(parameter, middle, parameter.inner(bound), limit, best)
+            for bound in (parameter.low, parameter.high)
+        )
         return Interval(parameter.outer(low), parameter.outer(high), below, above, first or second)
 
     def _end(
@@ -296,11 +296,6 @@ class Posterior:
     correlation_time: float
     converged: bool
 
-    def of(self, name: str) -> Array:
-        """Return the samples of one parameter."""
-        names = [one.name for one in self.parameters]
-        return self.values[:, names.index(name)]
-
     def thinned(self, count: int) -> dict[str, Array]:
         """Select evenly a number of samples: parameter -> values, shape (count, 1)."""
         some = self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
@@ -339,12 +334,8 @@ def posterior(
     """
     starts = (best, *others)
     chains = [_sampled(objective, one, seed + i) for i, one in enumerate(starts)]
-    evidence = np.array(
-        [
-            -start.misfit / 2 + _volume(inner)
-            for start, (inner, _) in zip(starts, chains, strict=True)
-        ]
-    )
+    rows = zip(starts, chains, strict=True)
+    evidence = np.array([_volume(inner) - one.misfit / 2 for one, (inner, _) in rows])
     shares = np.exp(evidence - evidence.max())
     counts = np.round(shares / shares.sum() * chains[0][0].shape[0]).astype(int)
     rng = np.random.default_rng(seed)

@@ -198,10 +198,10 @@ def _located(
                 series = replace(series, gaps=(series.gaps[0], most))
             search = widely(forward, plain, opening)
             best = search.best()
-        known, changed, depends = _with_errors(search, best)
-        if depends:
+        known, changed = _with_errors(search, best)
+        if known.ratio.slopes.any():
             # repeat for this machine, because the interface was that of a rigid one
-            known, changed, _ = _with_errors(search, known.best())
+            known, changed = _with_errors(search, known.best())
         refused = changed.refused
         if simulable:
             known, refused = with_simulations(known, changed, runs)
@@ -224,10 +224,10 @@ def _located(
     )
 
 
-def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
+def _with_errors(search: Search, best: Best) -> tuple[Search, Changed]:
     """Return a search with the machine, and uncertainties of material, temperature and machine.
 
-    Also return the ratios of the forces at the interface, and whether they depend on it.
+    Also return the ratios of the forces at the interface.
     """
     series, interface = search.series, search.interface(best.values)
     own = search.tests
@@ -235,7 +235,7 @@ def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
     softer = series.compliance_uncertainty * ratio.log_ratio
     noise = series.noise + shift_covariance(series, own, interface)
     spread = joint_covariance(series, [own], interface, search.model, softer, noise)
-    return replace(search, spread=spread, ratio=ratio), changed, bool(ratio.slopes.any())
+    return replace(search, spread=spread, ratio=ratio), changed
 
 
 def _largest_gap(search: Search) -> float | None:

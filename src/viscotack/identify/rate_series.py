@@ -212,9 +212,7 @@ class RateSeries:
         if self.preload is not None:
             tests = [replace(one, preload=self.preload) for one in tests]
         if without := [one.at for one in tests if one.preload is None]:
-            raise InputError(
-                f"the pull-off at {without[0]} has no force at its start; give preload"
-            )
+            raise InputError(f"the pull-off at {without[0]} has no preload; state it by preload")
         tests = shifted(tests, self.passport, self.growth)
         object.__setattr__(self, "tests", tuple(tests))
         self._check_tests()

@@ -254,11 +254,6 @@ class SlowTestFit:
         return tuple(fit for fit in self.fits if fit.criterion < most)
 
     @property
-    def evidence(self) -> str:
-        """Criterion by which the model was chosen."""
-        return "Bayesian information criterion, chi2 + k ln n, with the scatter of the best model"
-
-    @property
     def undetermined(self) -> bool:
         """Whether models that the data do not distinguish give different works of adhesion."""
         works = [fit.work_of_adhesion for fit in self.alike]

@@ -169,7 +169,9 @@ def slow_record(fit: Any) -> dict[str, Any]:
         "against": fit.test.against,
         "points": fit.test.force.size,
         "fits": [read(one, *names) for one in fit.fits],
-        **read(fit, "undetermined", "upper_bound", "level", "evidence", "words"),
+        **read(fit, "undetermined", "upper_bound", "level"),
+        "evidence": "Bayesian information criterion, chi2 + k ln n, scatter of the best model",
+        **read(fit, "words"),
     }
 
 
