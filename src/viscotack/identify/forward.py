@@ -181,26 +181,13 @@ class Forward:
     body: HalfSpace | Layer = HalfSpace()
     computed: Computed | None = field(default=None, compare=False, repr=False)
 
-    def check(
-        self,
-        *,
-        stiffness: float | None = None,
-        moves: Sequence[tuple[Move, ...]] = (),
-        curves: bool = False,
-        growth: bool = False,
-    ) -> None:
-        """Raise an error for problems that have no theory on a layer."""
-        cases = {
-            "a compliant machine": stiffness is not None,
-            "a finite dwell": bool(moves),
-            "whole curves": curves,
-            "an interface that grows with speed": growth,
-        }
-        unknown = [name for name, given in cases.items() if given]
+    def check(self, **given: Any) -> None:
+        """Raise an error for what has no theory on a layer: compliance, dwell, curves, growth."""
+        unknown = [name for name, value in given.items() if value]
         if isinstance(self.body, Layer) and unknown:
             raise InputError(
-                f"on a layer, {' and '.join(unknown)} cannot be taken into account: the theory "
-                "covers pull-off forces of relaxed contacts with a stiff machine only"
+                "on a layer pull-off forces of relaxed contacts with a stiff machine are known "
+                f"only, without growth; omit {' and '.join(unknown)}"
             )
 
     def problem(
@@ -264,7 +251,7 @@ class Forward:
             Moves of each test before the retraction; empty if all contacts are relaxed.
         """
         work, gap, growth = interface
-        self.check(stiffness=stiffness, moves=moves, growth=growth is not None)
+        self.check(compliance=stiffness, dwell=moves, growth=growth)
         numbers = _numbers(work, gap, speed, preload, *(growth or ()))
         given = interface, speed, preload, stiffness, moves
         case = ("changed", *numbers, stiffness, moves)

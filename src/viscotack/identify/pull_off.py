@@ -158,15 +158,14 @@ class Trial:
     @property
     def words(self) -> str:
         """The test in words."""
-        parts = [readable(self.speed, "m/s", digits=3)]
-        for value, unit, words in (
-            (self.preload, "N", "under"),
-            (self.radius, "m", "R ="),
-            (self.dwell, "s", "dwell"),
-        ):
-            if value is not None:
-                parts.append(f"{words} {readable(value, unit, digits=3)}")
-        return ", ".join(parts)
+        return ", ".join(filter(None, (readable(self.speed, "m/s", digits=3), self.conditions)))
+
+    @property
+    def conditions(self) -> str:
+        """Preload, radius and dwell in words."""
+        rows = ("under", self.preload, "N"), ("R =", self.radius, "m"), ("dwell", self.dwell, "s")
+        known = ((word, x, unit) for word, x, unit in rows if x is not None)
+        return ", ".join(f"{word} {readable(x, unit, digits=3)}" for word, x, unit in known)
 
     def moves(self) -> tuple[Move, ...]:
         """Return the moves before the retraction; empty for a contact that relaxes."""

@@ -190,7 +190,7 @@ def _invalid(fit: RateSeriesFit, trial: Trial) -> str:
     """Return why the theory does not hold for a test, or ""."""
     one = fit.search.tests.of([trial])
     try:
-        one.forward.check(moves=one.moves)
+        one.forward.check(dwell=one.moves)
         found = one.pulled(fit.interface)
     except InputError as error:
         return str(error)

@@ -159,7 +159,7 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
     mostly for the lattice.
     """
     forward = Forward(series.passport.material, series.radius, body=series.body, computed=computed)
-    forward.check(stiffness=series.stiffness, curves=series.curves, growth=series.growth)
+    forward.check(compliance=series.stiffness, curves=series.curves, growth=series.growth)
     with Simulations(computed) as runs:
         plain, search, excluded = _located(forward, series, runs)
     if series.growth:

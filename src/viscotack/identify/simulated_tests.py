@@ -67,6 +67,13 @@ def with_simulations(
     material = search.spread - (series.noise + by_theory.covariance(series.speed))
     known = KnownRatios.none(tests, runs)
     error, apart, bent = np.full(series.speed.size, _UNKNOWN), _APART, 0.0
+
+    def weighed(search: Search, simulated: npt.NDArray[np.bool_]) -> Search:
+        """Return a search with the errors of its tests, some of them simulated."""
+        model = _model(simulated, series.theory_error, error)
+        spread = series.noise + model.covariance(series.speed) + material
+        return replace(search, model=model, spread=spread + bent**2)
+
     for _ in range(_ROUNDS):
         points = search.likely(_LIKELY)
         more = simulated | _low(tests, points)
@@ -75,12 +82,9 @@ def with_simulations(
         begins = bool(np.any(more != simulated)) or not len(known.points)
         if begins:
             simulated = more
-            model = _model(simulated, series.theory_error, error)
-            spread = series.noise + model.covariance(series.speed) + material
-            search = replace(search, spread=spread + bent**2)
+            search = weighed(search, simulated)
             points = search.likely(_LIKELY)
-            earlier = known.points
-            known = KnownRatios.none(tests.some(simulated), runs).adding(earlier)
+            known = KnownRatios.none(tests.some(simulated), runs).adding(known.points)
         likely, count = points / LENGTHS, len(known.points)
         known = known.over(likely, apart)
         if len(known.points) == count and not begins:
@@ -96,14 +100,9 @@ def with_simulations(
         bent = min(_BENT / (length_of(search.forward, work) / gap) ** 2, _MOST_BENT)
         near = simulated.copy()
         near[simulated] = known.by_simulation(work, gap)
-        model = _model(near, series.theory_error, error)
-        search = replace(
-            search,
-            model=model,
-            ratio=replace(search.ratio, known=known, which=tuple(np.flatnonzero(simulated))),
-            spread=series.noise + model.covariance(series.speed) + material + bent**2,
-        )
-        apart *= _CLOSER if model.simulation.max() > _WANTED else 1.0
+        ratio = replace(search.ratio, known=known, which=tuple(np.flatnonzero(simulated)))
+        search = replace(weighed(search, near), ratio=ratio)
+        apart *= _CLOSER if search.model.simulation.max() > _WANTED else 1.0
     return search, answered
 
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.identify import NextTests, Trial
+from viscotack.identify import NextTests
 from viscotack.units import readable
 
 from .style import drawing, label_in_si
@@ -30,7 +30,7 @@ def draw_next_tests(found: NextTests) -> "Figure":
         left, right = figure.subplots(1, 2, width_ratios=(1.6, 1), sharey=True)
         groups: dict[str, list[tuple[float, float]]] = {}
         for one in found.ranked:
-            groups.setdefault(_condition(one.trial), []).append((one.trial.speed, one.left))
+            groups.setdefault(one.trial.conditions, []).append((one.trial.speed, one.left))
         for name, rows in groups.items():
             v, deviation = np.array(sorted(rows)).T
             left.plot(v, 100 * deviation, "o-", ms=4, label=name)
@@ -47,16 +47,3 @@ def draw_next_tests(found: NextTests) -> "Figure":
         right.set_xticks(range(len(steps)), names, fontsize=8)
         right.set_xlabel("best sequence of tests")
     return figure
-
-
-def _condition(trial: Trial) -> str:
-    stated = (
-        ("", trial.preload, "N", 2),
-        ("R ", trial.radius, "m", 3),
-        ("dwell ", trial.dwell, "s", 3),
-    )
-    return ", ".join(
-        f"{name}{readable(value, unit, digits=digits)}"
-        for name, value, unit, digits in stated
-        if value is not None
-    )
