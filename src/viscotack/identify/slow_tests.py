@@ -89,12 +89,11 @@ class SlowTest:
             object.__setattr__(self, name, row)
         if self.against not in ("radius", "depth"):
             raise InputError(f"against must be 'radius' or 'depth', got {self.against!r}")
-        if self.force.shape != self.at.shape or self.force.ndim != 1:
-            raise InputError("force and at must be one-dimensional arrays of the same length")
+        rows = self.force, self.at
+        if rows[0].ndim != 1 or rows[0].shape != rows[1].shape or not np.all(np.isfinite(rows)):
+            raise InputError("force and at must be finite, one-dimensional and of one length")
         if self.force.size < _FEWEST:
             raise InputError(f"a fit needs at least {_FEWEST} points, got {self.force.size}")
-        if not np.all(np.isfinite(self.force) & np.isfinite(self.at)):
-            raise InputError("forces and radii or depths must be finite")
         for name in ("radius", "force_noise"):
             if not 0 < getattr(self, name) < np.inf:
                 raise InputError(f"{name} must be positive, got {getattr(self, name)}")
@@ -252,6 +251,11 @@ class SlowTestFit:
         """Fits that the data do not distinguish from the best, which is first."""
         most = self.best.criterion + EVIDENCE
         return tuple(fit for fit in self.fits if fit.criterion < most)
+
+    @property
+    def ranged(self) -> ModelFit | None:
+        """The best model with an interval of the range of attraction."""
+        return next((one for one in self.fits if "tabor" in one.intervals), None)
 
     @property
     def undetermined(self) -> bool:
@@ -413,9 +417,8 @@ def _same_pull(fit: SlowTestFit, solid: Material | None) -> SamePull | None:
     if solid is None or test.speed is None or test.preload is None:
         return None
     work, tabor = max(one.work_of_adhesion for one in alike), None
-    ranged = next((one for one in fit.fits if "tabor" in one.intervals), None)
-    if not fit.bounded and ranged is not None and ranged in alike:
-        ends = ranged.intervals["tabor"]
+    if not fit.bounded and fit.ranged is not None and fit.ranged in alike:
+        ends = fit.ranged.intervals["tabor"]
         if ends.told or (ends.closed_below and ends.low > _SHORT):
             tabor = ends.low
     gap = (test.radius * work**2 / solid.contact_modulus**2) ** (1 / 3) / (tabor or _SHORT)

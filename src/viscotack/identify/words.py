@@ -144,18 +144,21 @@ def _of_unknowns(fit: SeriesFit) -> Iterator[str]:
     """Yield a sentence on each unknown."""
     for name, ends in fit.intervals.items():
         label, unit = _LABELS[name]
-        if ends.told:
-            both = readable_interval(ends.low, ends.high, unit)
-            value = readable(fit.best.values[name], unit, digits=3)
-            yield f"{label} {value} ({both}, {fit.level:.0%})"
-        elif ends.closed_below or ends.closed_above:
-            side, end = ("above", ends.low) if ends.closed_below else ("below", ends.high)
-            known = f"{label} {side} {readable(end, unit, digits=3)} ({fit.level:.0%})"
-            yield f"{known}; not identifiable {side}"
-        else:
-            yield f"{label}: not identifiable from these speeds"
+        yield _of_one(label, unit, fit.best.values[name], ends, fit.level)
         if ends.split:
             yield f"the interval of the {label} consists of separate ranges that fit these forces"
+
+
+def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> str:
+    """Return a sentence on a value with its interval, which the data may leave open."""
+    if ends.told:
+        both = readable_interval(ends.low, ends.high, unit)
+        return f"{label} {readable(value, unit, digits=3)} ({both}, {level:.0%})"
+    if ends.closed_below or ends.closed_above:
+        side, end = ("above", ends.low) if ends.closed_below else ("below", ends.high)
+        known = f"{label} {side} {readable(end, unit, digits=3)} ({level:.0%})"
+        return f"{known}; not identifiable {side}"
+    return f"{label}: not identifiable from these tests"
 
 
 def _of_time(fit: SeriesFit) -> Iterator[str]:
@@ -370,9 +373,8 @@ def slow_words(fit: SlowTestFit) -> Iterator[str]:
     if len(names) > 1 and (reasons or not fit.undetermined):
         others = " and ".join(names[1:])
         yield f"the data do not distinguish {names[0]} from {others} (criteria within {EVIDENCE:g})"
-    ranged = next((one for one in fit.fits if "tabor" in one.intervals), None)
-    if ranged is not None and not reasons:
-        yield _of_range(ranged, names, level)
+    if fit.ranged is not None and not reasons:
+        yield _of_range(fit.ranged, names, level)
     if fit.test.against == "depth":
         yield "the zero of depth was also fitted; without a camera the range is poorly determined"
     if fit.same_pull is None and fit.material is not None:
@@ -406,17 +408,12 @@ def _work(fit: ModelFit, ends: Interval, level: float) -> str:
 
 def _of_range(fit: ModelFit, alike: list[str], level: float) -> str:
     """Describe the range; `alike` are the models that the data do not distinguish."""
-    ends, by = fit.intervals["tabor"], f"{level:.0%}) by {fit.model.upper()}"
+    ends, name = fit.intervals["tabor"], fit.model.upper()
+    said = _of_one("Tabor number", "", fit.tabor or np.nan, ends, level)
     if ends.told:
-        return f"Tabor number {fit.tabor:.3g} ({ends.low:.3g} to {ends.high:.3g}, {by}"
+        return f"{said} by {name}"
     if ends.closed_below and "DMT" not in alike:
-        return (
-            f"Tabor number above {ends.low:.3g} ({by}; these data give no upper bound, hence no "
-            "range of attraction: JKR is sufficient"
-        )
+        return f"{said} ({name}), hence no range of attraction: JKR is sufficient"
     if ends.closed_above and "JKR" not in alike:
-        return (
-            f"Tabor number below {ends.high:.3g} ({by}; these data give no lower bound: DMT is "
-            "sufficient"
-        )
-    return f"these data do not determine the range of attraction ({fit.model.upper()})"
+        return f"{said} ({name}): DMT is sufficient"
+    return f"these data do not determine the range of attraction ({name})"
