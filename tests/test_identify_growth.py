@@ -78,12 +78,16 @@ def test_a_series_without_growth_needs_none(small):
     assert fit.intervals["strengthening"].low == 1.0
 
 
+def unknowns(gap, strengthening):
+    return {"equilibrium_gap": gap, "strengthening": strengthening, "exponent": 0.5}
+
+
 def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
     opening = Opening(1e-12)
-    law = opening.growth([1e-8, 1e-7], 3.0, 0.5)
+    law = opening.growth(unknowns([1e-8, 1e-7], 3.0))
     assert opening.speed([1e-8, 1e-7]) == pytest.approx([1e-4, 1e-5])
     assert np.sqrt(opening.speed([1e-8, 1e-7]) / law.reference_speed) == pytest.approx(2.0)
-    assert np.all(np.isinf(opening.growth(1e-8, 1.0, 0.5).reference_speed))
+    assert np.all(np.isinf(opening.growth(unknowns(1e-8, 1.0)).reference_speed))
 
 
 @pytest.mark.parametrize("better_by", [0.0, 4.6, 9.2])
@@ -101,7 +105,7 @@ def test_cracks_of_an_interface_that_grows_are_kept_for_the_forecast(monkeypatch
     def pulled(speed):
         kept = Computed.read(file)
         forward = growing.growing(Forward(SOLID, RADIUS, computed=kept), opening, (4e-8, 6e-8))
-        law = opening.growth(GAP, 1.5, 0.5)
+        law = opening.growth(unknowns(GAP, 1.5))
         found = forward.pulled(WORK, GAP, speed, PRELOAD, 40, law).force
         kept.write(file)
         return float(found)

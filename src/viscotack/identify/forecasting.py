@@ -152,14 +152,12 @@ def forecast_rates(
         found = tested(likely, changed, tests, given.theory_error)
     forecast = _banded(
         fit,
-        v,
+        tests,
         chain,
         conditioned(fit, [tests], draws, found.model, time),
         ratio=found.ratio,
         model=middle.force * np.median(np.atleast_2d(found.ratio), axis=0),
         comparable=passport.temperature == fit.passport.temperature and dwell is None,
-        preload=float(tests.load[0]),
-        temperature=passport.temperature,
         dwell=dwell,
         contact_time=time,
     )
@@ -192,14 +190,12 @@ def forecast_edge(
         spread = spread + trend_covariance(both, own, fit.between_speeds)
     forecast = _banded(
         fit,
-        v,
+        tests,
         chain,
         _given_series(fit, spread, forces[:, : own.size], forces[:, own.size :]),
         ratio=np.ones(v.size),
         model=edge_forces(given, fit.best.values, v, tests.load),
         comparable=True,
-        preload=float(tests.load[0]),
-        temperature=fit.passport.temperature,
         dwell=None,
         contact_time=None if given.decades is None else np.full(v.size, given.middle_time),
     )
@@ -208,34 +204,31 @@ def forecast_edge(
 
 def _banded(
     fit: SeriesFit,
-    v: Array,
+    tests: SphereTests,
     chain: Posterior,
     logs: tuple[Array, Array],
     *,
     ratio: Array,
     model: Array,
     comparable: bool,
-    preload: float,
     **known: Any,
 ) -> RateForecast:
-    """Return a forecast at speeds [m/s] without its words.
+    """Return a forecast of tests without its words.
 
     Parameters
     ----------
-    fit, v, chain : SeriesFit, ndarray, Posterior
-        Fit of the series, speeds [m/s] and the sampled interfaces.
+    fit, tests, chain : SeriesFit, SphereTests, Posterior
+        Fit of the series, the tests and the sampled interfaces.
     logs, ratio : (ndarray, ndarray), ndarray
         ln of the forces of sampled interfaces with their covariance, and a factor on the forces.
     model : ndarray
         Forces of the model alone [N].
     comparable : bool
         Whether forces of the series at slower speeds are lower bounds.
-    preload : float
-        Preload [N].
     **known
-        Temperature, dwell and time in contact of the forecast.
+        Dwell and time in contact of the forecast.
     """
-    moved, left = logs
+    (moved, left), v, preload = logs, tests.speed, float(tests.load[0])
     rng = np.random.default_rng(0)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
     sample = (np.exp(moved + noise) * ratio).reshape(-1, v.size)
@@ -266,6 +259,7 @@ def _banded(
         high_of_one,
         level=fit.level,
         preload=preload,
+        temperature=tests.passport.temperature,
         posterior=chain,
         raised=raised,
         **known,

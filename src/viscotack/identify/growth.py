@@ -59,17 +59,12 @@ class Opening:
         """Return the opening speed [m/s] at ranges h0 [m]."""
         return self.product / np.asarray(gap, dtype=float)
 
-    def growth(
-        self, gap: npt.ArrayLike, strengthening: npt.ArrayLike, exponent: npt.ArrayLike
-    ) -> Growth:
-        """Return the growth law of ranges, strengthenings and exponents."""
-        more = np.asarray(strengthening, dtype=float) - 1
+    def growth(self, values: Mapping[str, Any]) -> Growth:
+        """Return the growth law of a set of parameters, or of arrays of them."""
+        more, exponent = np.asarray(values[STRENGTHENING], dtype=float) - 1, values[EXPONENT]
         more = np.where(more > _LEAST_TOLD, more, 0.0)
-        return Growth(reference_speed(more, self.speed(gap), exponent), exponent)
-
-    def of(self, values: Mapping[str, Any]) -> Growth:
-        """Return the growth law of a set of parameters."""
-        return self.growth(values["equilibrium_gap"], values[STRENGTHENING], values[EXPONENT])
+        speed = self.speed(values["equilibrium_gap"])
+        return Growth(reference_speed(more, speed, exponent), exponent)
 
 
 @dataclass(frozen=True)

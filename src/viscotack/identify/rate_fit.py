@@ -288,7 +288,7 @@ def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
     return FoundGrowth(
         strengthening=best.values["strengthening"],
         opening_speed=float(search.opening.speed(best.values["equilibrium_gap"])),
-        reference_speed=float(search.opening.of(best.values).reference_speed),
+        reference_speed=float(search.opening.growth(best.values).reference_speed),
         exponent=best.values["exponent"],
         better_by=max(without.misfit - best.misfit, 0.0),
         shares=shares_of(search.series.speed, pulled),

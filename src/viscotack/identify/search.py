@@ -77,7 +77,7 @@ class Table:
             Number of points of a curve.
         """
         values = lattice(axes)
-        growth = None if opening is None else opening.of(values)
+        growth = None if opening is None else opening.growth(values)
         work, gap = values["work_of_adhesion"], values["equilibrium_gap"]
         found = forward.pulled(work, gap, speed, preload, radii, growth)
         columns = [np.log(found.force)[..., None], np.log(found.effective_tabor)[..., None]]
@@ -282,7 +282,7 @@ class Search:
 
     def interface(self, values: Mapping[str, Any]) -> Interface:
         """Return the interface of some parameters, or interfaces of arrays."""
-        growth = None if self.opening is None else self.opening.of(values)
+        growth = None if self.opening is None else self.opening.growth(values)
         return Interface(values["work_of_adhesion"], values["equilibrium_gap"], growth)
 
     def forces(self, best: Best) -> Array:
