@@ -260,9 +260,7 @@ class RateSeries:
     @cached_property
     def passport(self) -> Passport:
         """The material with what is known of it."""
-        if isinstance(self.material, Passport):
-            return self.material
-        return Passport(name="", material=self.material)
+        return Passport.of(self.material)
 
     @cached_property
     def speed(self) -> Array:
@@ -417,7 +415,7 @@ def series_of(
         if compliance_uncertainty > 0:
             known["compliance_uncertainty"] = compliance_uncertainty / soft
     if bounded and isinstance(known.get("body", HalfSpace()), HalfSpace):
-        solid = material.material if isinstance(material, Passport) else material
-        case = known["radius"], solid.contact_modulus, known.get("level", 0.9)
+        modulus = Passport.of(material).material.contact_modulus
+        case = known["radius"], modulus, known.get("level", 0.9)
         known["range_bound"] = range_bound(found.cycles, *case)
     return RateSeries(tests, material=material, **known)

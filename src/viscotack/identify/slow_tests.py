@@ -395,16 +395,16 @@ def _at_temperature(
     given: Passport | Material | None, temperature: float | None
 ) -> tuple[Material | None, tuple[float, float] | None]:
     """Return a material at a temperature, and its E0* with uncertainty if known."""
-    if not isinstance(given, Passport):
-        return given, None
-    given.refuse_liquid("no test is slow, because the solid does not relax")
-    if temperature is not None and given.temperature is not None:
-        given = given.moved_to(temperature)
-    rubbery = [float(solid.rubbery_modulus) for solid in allowed(given)]
-    spread = float(np.std(rubbery)) if len(rubbery) > 1 else 0.0
-    plane = 1 - given.material.poisson_ratio**2
-    known = (given.material.rubbery_modulus / plane, spread / plane) if spread else None
-    return given.material, known
+    if given is None:
+        return None, None
+    passport = Passport.of(given)
+    passport.refuse_liquid("no test is slow, because the solid does not relax")
+    if temperature is not None and passport.temperature is not None:
+        passport = passport.moved_to(temperature)
+    rubbery = [float(solid.rubbery_modulus) for solid in allowed(passport)]
+    spread, material = float(np.std(rubbery)) if rubbery else 0.0, passport.material
+    plane = 1 - material.poisson_ratio**2
+    return material, (material.rubbery_modulus / plane, spread / plane) if spread else None
 
 
 def _same_pull(fit: SlowTestFit, solid: Material | None) -> SamePull | None:

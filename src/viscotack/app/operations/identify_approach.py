@@ -49,8 +49,7 @@ class IdentifyApproach(Rig):
         if (modulus is None) == (self.material is None):
             raise InputError("give either contact_modulus or material", field="contact_modulus")
         if modulus is None:
-            found = solid_of(self.material, caller)
-            solid = found.material if isinstance(found, Passport) else found
+            solid = Passport.of(solid_of(self.material, caller)).material
             modulus = solid.contact_modulus
             instantaneous = modulus / solid.modulus_ratio
         survey = self.survey(caller)

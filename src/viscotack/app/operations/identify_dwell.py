@@ -38,10 +38,9 @@ class IdentifyDwell(Rig):
 
         found = self.survey(caller)
         times, forces, uncertainty = tests_by_dwell(found.cycles)
-        solid = solid_of(self.material, caller)
-        if isinstance(solid, Passport):
-            solid.refuse_liquid("its contacts do not relax, so that the growth is not identified")
-        check_relaxed(solid.material if isinstance(solid, Passport) else solid, times)
+        solid = Passport.of(solid_of(self.material, caller))
+        solid.refuse_liquid("its contacts do not relax, so that the growth is not identified")
+        check_relaxed(solid.material, times)
         fit = identify_dwell(
             times, forces, radius=self.radius, uncertainty=uncertainty, level=self.level
         )

@@ -149,6 +149,11 @@ class Passport:
         said = () if self.evidence is None else self.evidence.undetermined
         return next((text for text in said if text.startswith(LIQUID)), "")
 
+    @classmethod
+    def of(cls, solid: Any) -> "Passport":
+        """Return a passport as it is, and a bare material as a passport that knows nothing more."""
+        return solid if isinstance(solid, Passport) else cls(name="", material=solid)
+
     def refuse_liquid(self, what: str) -> None:
         """Raise an error if the material is a liquid; `what` cannot be done with one."""
         if self.liquid:
