@@ -290,12 +290,10 @@ def check_relaxed(material: Material, times: Array) -> None:
     """
     first, last = (float(material.relaxation(x)) for x in (times.min(), times.max()))
     if first / last - 1 > _LEFT:
+        ends = readable(float(times.min()), "s", digits=2, to=float(times.max()))
         raise InputError(
-            f"the modulus relaxes by {first / last - 1:.0%} between contact times of "
-            f"{readable(float(times.min()), 's', digits=2)} and "
-            f"{readable(float(times.max()), 's', digits=2)}, which changes the force like a "
-            "growing interface does; leave out the short dwells, or compute the forces of a rate "
-            "series with their history"
+            f"the modulus relaxes by {first / last - 1:.0%} between contact times of {ends}, which "
+            "changes the force like a growing interface; leave out short dwells, or set history"
         )
 
 
@@ -345,9 +343,9 @@ def _checked(
     t, F = t[order], F[order]
     dwells = 1 + int(np.count_nonzero(np.diff(np.log(t)) > np.log(1.1)))
     if t.size < _FEWEST or dwells < _DWELLS or t[-1] < _RANGE * t[0]:
+        ends = readable(float(t[0]), "s", digits=2, to=float(t[-1]))
         raise InputError(
-            f"{t.size} tests after {dwells} dwells, {readable(float(t[0]), 's', digits=2)} to "
-            f"{readable(float(t[-1]), 's', digits=2)}: a growth with contact time needs "
+            f"{t.size} tests after {dwells} dwells, {ends}: a growth with contact time needs "
             f"{_FEWEST} tests after {_DWELLS} dwells over a factor of {_RANGE:g}"
         )
     return t, F

@@ -125,7 +125,7 @@ def refuse_far(series: RateSeries, speed: Array) -> None:
     bad = speed[(speed < low / factor) | (speed > high * factor)]
     if bad.size:
         raise OutOfRange(
-            f"an edge law holds near the speeds of its tests, {readable(low, 'm/s', to=high)}; "
-            f"{readable(bad[0], 'm/s', digits=3)} is more than {_FURTHEST:g} times beyond them: "
-            "measure there, or give the material of a dynamic test to `viscotack identify rates`"
+            f"an edge law holds up to {_FURTHEST:g} times beyond its tests, "
+            f"{readable(low, 'm/s', to=high)}, not at {readable(bad[0], 'm/s', digits=3)}: measure "
+            "there, or give the material of a dynamic test to `viscotack identify rates`"
         )

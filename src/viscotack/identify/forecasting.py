@@ -126,9 +126,8 @@ def forecast_rates(
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
     if law is not None and passport.temperature != fit.passport.temperature:
         raise InputError(
-            "the temperature dependence of a speed-dependent interface is unknown: forecast at "
-            f"the temperature of the series, {fit.passport.temperature:g} K, or measure a series "
-            f"at {passport.temperature:g} K"
+            "an interface that grows with speed is known at the temperature of the series only, "
+            f"{fit.passport.temperature:g} K, not at {passport.temperature:g} K"
         )
     known = fit.forward.beside(passport.material)
     tests = fit.search.tests._replace(forward=known, passport=passport).of(trials)

@@ -223,11 +223,6 @@ class Forward:
         """Return the steady cracks of the material, shared by all interfaces."""
         return SteadyCrack(self.material.reduced(), LennardJones(1.0, 1.0))
 
-    @property
-    def zone_length(self) -> float:
-        """Length of the cohesive zone at rest [E0* h0^2/dg]."""
-        return self.crack.zone_length
-
     def changed(
         self,
         interface: Interface,
@@ -393,7 +388,7 @@ class Forward:
         radius = found.radius[at] * beta
         zone = through = np.zeros(mu.size)
         if isinstance(self.body, Layer):
-            zone = self.zone_length * energy[at] / mu**2 * beta
+            zone = self.crack.zone_length * energy[at] / mu**2 * beta
             through = zone * radius / self.body.thickness**2
         # heights in beta^2/R
         height = beta**2 / self.radius
@@ -481,11 +476,6 @@ class Neighbour(Forward):
     @property
     def _materials(self) -> tuple[Any, ...]:
         return (self.material, *self.known._materials)
-
-    @property
-    def zone_length(self) -> float:
-        """Length of the cohesive zone at rest, which depends on the law alone."""
-        return self.known.zone_length
 
     @cached_property
     def crack(self) -> Any:

@@ -207,9 +207,8 @@ class Search:
         count = int(np.argmin(holds)) if not holds.all() else holds.size
         if count < _FEWEST:
             raise InputError(
-                f"the theory of a crack holds for none of the searched ranges ({series.gaps[0]:.3g}"
-                f" to {series.gaps[1]:.3g} m), because the cohesive zone is as large as the "
-                "contact; search smaller ranges, or simulate"
+                f"the cohesive zone is as large as the contact at ranges from {series.gaps[0]:.3g} "
+                f"to {series.gaps[1]:.3g} m: search smaller ones, or simulate"
             )
         axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
         table = Table.of_cracks(forward, series.speed, series.load, axes, travels=series.curves)

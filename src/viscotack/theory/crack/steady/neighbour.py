@@ -71,6 +71,11 @@ class NeighbourCrack:
         """Amplification at infinite speed."""
         return 1 / self.modes.instantaneous
 
+    @property
+    def zone_length(self) -> float:
+        """Length of the cohesive zone at rest [E0* h0^2/dg], which depends on the law alone."""
+        return self.known.zone_length
+
     def speed(self, amplification: Values) -> Array:
         """Return opening speeds [E0* h0^2/(dg tau)] of energies between 1 and 1/k."""
         gamma = np.asarray(amplification, dtype=float)
