@@ -36,8 +36,10 @@ def fitted(values, **more):
 def small(monkeypatch):
     """Look for little, on a lattice as small as splines allow."""
     monkeypatch.setattr(growing, "_LATTICE", (0.35, 0.42, 0.5, 0.6))
-    monkeypatch.setattr(growing, "EXPONENTS", (0.35, 0.6))
     monkeypatch.setattr(growing, "LARGEST", 6.0)
+    unknowns = [replace(growing.UNKNOWNS[0], high=6.0)]
+    unknowns.append(replace(growing.UNKNOWNS[1], low=0.35, high=0.6))
+    monkeypatch.setattr(search, "UNKNOWNS", unknowns)
     monkeypatch.setattr(search, "_COARSE", (0.77, 0.77, 0.6, 0.2))
     monkeypatch.setattr(search, "_FINE", (0.38, 0.57, 0.5, 0.2))
     return {"gaps": (20e-9, 120e-9), "work_of_adhesion": (WORK, 0.01 * WORK)}

@@ -23,7 +23,7 @@ from .contact_time import PER_DECADE, FoundAgeing
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import ForceRatios
 from .forward import Forward, Interface
-from .growth import EXPONENT, LARGEST, UNKNOWNS, Opening
+from .growth import EXPONENT, UNKNOWNS, Opening
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff
 from .rate_series import RateSeries
@@ -361,7 +361,7 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     some = order[np.unique(chosen)]
     works, gaps, *steps = _COARSE
     ends = np.log(ranges[[0, -1]])
-    energy = min(LARGEST / forward.material.modulus_ratio, LARGEST_ENERGY)
+    energy = min(UNKNOWNS[0].high / forward.material.modulus_ratio, LARGEST_ENERGY)
     axes = {
         "work_of_adhesion": _works(series, energy, np.log(10) / works),
         "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
