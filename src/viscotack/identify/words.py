@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
     from .search import SeriesFit
     from .slow_tests import ModelFit, SamePull, SlowTestFit
 
+_speed = partial(readable, unit="m/s", digits=3)
+_size = partial(readable, unit="m", digits=3)
+_time = partial(readable, unit="s", digits=2)
 _NAMED = 4  # largest number of tests, or of speeds, that are named one by one
 _LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
 _CHANCE = 0.01  # accepted probability that a series without growth is reported to need it
@@ -55,9 +59,9 @@ def fit_words(fit: RateSeriesFit) -> Iterator[str]:
         yield "the material is assumed exact, because its uncertainty is unknown"
     if fit.is_zone_length:
         yield (
-            f"the approach bounds the range of attraction at {_size(given.range_bound)}, below "
-            f"every h0 that fits the forces: the fitted {_size(fit.equilibrium_gap)} is a length "
-            "of the crack's zone, not a range of attraction"
+            f"the approach bounds h0 at {_size(given.range_bound or 0.0)}, below every h0 that "
+            f"fits the forces: the fitted {_size(fit.equilibrium_gap)} is a length of the crack's "
+            "zone, not a range of attraction"
         )
     yield from _of_scatter(fit)
     if fit.edge is not None:
@@ -81,9 +85,9 @@ def fit_words(fit: RateSeriesFit) -> Iterator[str]:
         pulled = fit.forward.pulled(*fit.interface[:2], given.speed, given.load)
         radius, error = pulled.edge_radius, given.theory_error + ERROR_BY_ZONE * pulled.through
         yield (
-            f"on the layer contact radii at pull-off are {_size(radius.min(), radius.max())}, and "
-            f"the error of the theory is {error.min():.1%} to {error.max():.1%}; the Poisson ratio "
-            f"of its material is {fit.forward.material.poisson_ratio:.3g}"
+            f"contact radii at pull-off are {_size(radius.min(), to=radius.max())}; the error of "
+            f"the theory on the layer is {error.min():.1%} to {error.max():.1%}, with a Poisson "
+            f"ratio of {fit.forward.material.poisson_ratio:.3g}"
         )
     yield from simulation_words(given.speed, fit.search.model.simulation, fit.simulations)
     yield from _of_relaxation(fit)
@@ -166,15 +170,15 @@ def _of_time(fit: SeriesFit) -> Iterator[str]:
     given, found = fit.given, fit.ageing
     if given.confounded:
         yield (
-            f"times in contact are {_times(given.contact_times)}, but equal at each speed: a "
+            f"times in contact are {_span(given.contact_times)}, but equal at each speed: a "
             "growth of the interface with time is not separate from that with speed, and is taken "
             "as none; other dwells at the slowest speed would separate them"
         )
     if found is None:
         return
     yield (
-        f"the work of adhesion is that after {readable(given.middle_time, 's', digits=2)} in "
-        f"contact, the middle of {_times(given.contact_times)}; without growth in time the misfit "
+        f"the work of adhesion is that after {_time(given.middle_time)} in "
+        f"contact, the middle of {_span(given.contact_times)}; without growth in time the misfit "
         f"is {found.better_by:.1f} larger, with a probability of {found.chance:.1%} by chance"
     )
     if given.work_of_adhesion is not None:
@@ -213,8 +217,7 @@ def _of_relaxation(fit: RateSeriesFit) -> Iterator[str]:
         return
     dwells, changed = left_out
     said = [
-        f"{_speed(fit.series[i].speed)} after a dwell of {readable(dwell, 's', digits=2)} by "
-        f"{ratio - 1:+.0%}"
+        f"{_speed(fit.series[i].speed)} after a dwell of {_time(dwell)} by {ratio - 1:+.0%}"
         for (i, dwell), ratio, holds in zip(
             dwells.items(), changed.ratio, changed.holds, strict=True
         )
@@ -227,7 +230,7 @@ def _of_relaxation(fit: RateSeriesFit) -> Iterator[str]:
     if said:
         yield f"{taken} approach and dwell change the force at {' and at '.join(said)}{cure}"
     elif not np.all(changed.holds) and left >= _LEFT:
-        at = readable(shortest, "s", digits=2)
+        at = _time(shortest)
         yield f"{taken} {at} after the approach the modulus is {left:.0%} above the relaxed{cure}"
 
 
@@ -265,13 +268,13 @@ def forecast_words(
     measured, speed = fit.given.speed, forecast.speed
     if forecast.contact_time is not None:
         yield (
-            f"forces are those after {_times(forecast.contact_time)} in contact; that of the tests "
-            f"is {_times(fit.given.contact_times)}"
+            f"forces are those after {_span(forecast.contact_time)} in contact; that of the tests "
+            f"is {_span(fit.given.contact_times)}"
         )
     if speed.min() < 0.5 * measured.min() or speed.max() > 2 * measured.max():
         needed = "the law alone" if _is_edge(fit) else "the material and the theory"
         yield (
-            f"measured speeds range from {_speed(measured.min(), measured.max())}; beyond them the "
+            f"measured speeds are {_speed(measured.min(), to=measured.max())}; beyond them the "
             f"prediction depends on {needed}"
         )
     if len(fit.solutions) > 1:
@@ -283,8 +286,8 @@ def forecast_words(
         )
     if (raised := forecast.raised).size:
         yield (
-            f"at {_speed(raised.min(), raised.max())} the model predicts less than was measured at "
-            "a slower speed; there the forecast is the measured force"
+            f"at {_speed(raised.min(), to=raised.max())} the model predicts less than a slower "
+            "test; there the forecast is the measured force"
         )
     if crack_speed is not None:
         edge = readable(crack_speed.min(), "m/s", digits=2, to=crack_speed.max())
@@ -299,7 +302,7 @@ def simulation_words(speed: Array, error: Array, count: int) -> Iterator[str]:
     if speeds.size:
         at = ", ".join(_speed(one) for one in speeds)
         if speeds.size > _NAMED:
-            at = f"{speeds.size} speeds, {_speed(speeds[0], speeds[-1])}"
+            at = f"{speeds.size} speeds, {_speed(speeds[0], to=speeds[-1])}"
         yield (
             f"forces by simulation at {at}, where the theory does not hold: {count} simulations, "
             f"error of the interpolated force {error.max():.1%}"
@@ -311,19 +314,11 @@ def _test(fit: SeriesFit, number: int) -> str:
     one = fit.series[number]
     if fit.ageing is None or one.contact_time is None:
         return one.at
-    return f"{one.at} after {readable(one.contact_time, 's', digits=2)}"
+    return f"{one.at} after {_time(one.contact_time)}"
 
 
-def _times(times: Array) -> str:
-    return readable(float(times.min()), "s", digits=2, to=float(times.max()))
-
-
-def _speed(value: float, to: float | None = None) -> str:
-    return readable(float(value), "m/s", digits=3, to=None if to is None else float(to))
-
-
-def _size(value: float | None, to: float | None = None) -> str:
-    return readable(float(value or 0.0), "m", digits=3, to=None if to is None else float(to))
+def _span(times: Array) -> str:
+    return _time(times.min(), to=times.max())
 
 
 def upper_bound_words(fit: SlowTestFit) -> Iterator[str]:
