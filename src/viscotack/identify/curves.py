@@ -129,10 +129,10 @@ def _fitted(
     test = slow_test(cycle, radius)
     size, ((objective, best),) = with_own_scatter(test, [MODELS[model]], modulus)
     errors = np.sqrt(np.diag(objective.covariance(best)))
-    found = {}
-    for parameter, error in zip(objective.parameters, errors, strict=True):
-        value = best.values[parameter.name]
-        found[parameter.name] = Measured(value, float(error) * value)
+    found = {
+        one.name: Measured(best.values[one.name], float(error) * best.values[one.name])
+        for one, error in zip(objective.parameters, errors, strict=True)
+    }
     return CurveFit(
         cycle,
         model,

@@ -87,8 +87,7 @@ def identify_edge(series: RateSeries) -> EdgeFit:
         other = edge_forces(replace(series, stiffness=stiff), values, speed, series.load)
         softer = np.log(other / edge_forces(series, values, speed, series.load))
         search = replace(search, spread=search.spread + np.outer(softer, softer))
-    found = settled(search)
-    return EdgeFit.of(found, found.search.intervals(found.best, series.level))
+    return EdgeFit.of(settled(search))
 
 
 def edge_forces(

@@ -7,6 +7,7 @@ two to four parameters, a likelihood in microseconds and no gradients its walker
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -171,14 +172,9 @@ class Objective:
         """Return the derivatives of residuals and priors by the search coordinates."""
         at = np.array([p.inner(best.values[p.name]) for p in self.parameters])
         sizes = [1e-5 if p.logarithmic else 1e-5 * (p.high - p.low) for p in self.parameters]
-        columns = [
-            (
-                self._rest(at + step, self.parameters, {})
-                - self._rest(at - step, self.parameters, {})
-            )
-            / (2 * size)
-            for step, size in zip(np.diag(sizes), sizes, strict=True)
-        ]
+        rest = partial(self._rest, free=self.parameters, held={})
+        rows = zip(np.diag(sizes), sizes, strict=True)
+        columns = [(rest(at + step) - rest(at - step)) / (2 * size) for step, size in rows]
         return np.stack(columns, axis=1)
 
     def covariance(self, best: Best) -> Array:

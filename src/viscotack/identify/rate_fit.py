@@ -162,12 +162,8 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
     forward.check(compliance=series.stiffness, curves=series.curves, growth=series.growth)
     with Simulations(computed) as runs:
         plain, search, excluded = _located(forward, series, runs)
-    if series.growth:
-        found, intervals = closely(search, series.level)
-    else:
-        found = settled(search)
-        intervals = found.search.intervals(found.best, series.level)
-    fit = RateSeriesFit.of(found, intervals, growth=None, excluded=excluded, simulations=runs.count)
+    found, ends = closely(search, series.level) if series.growth else (settled(search), None)
+    fit = RateSeriesFit.of(found, ends, growth=None, excluded=excluded, simulations=runs.count)
     _check_place(fit.search, fit.best)
     found = replace(fit, growth=_growth(fit, plain))
     _ = found.left_out  # now, so that `computed` keeps it for forecasts

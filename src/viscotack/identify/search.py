@@ -284,10 +284,6 @@ class Search:
         growth = None if self.opening is None else self.opening.growth(values)
         return Interface(values["work_of_adhesion"], values["equilibrium_gap"], growth)
 
-    def forces(self, best: Best) -> Array:
-        """Return the pull-off forces of some parameters [N], shape (S,)."""
-        return self.table(best.values, self.grown(best.values)) * self.ratio(best.values)
-
     def best(self) -> Best:
         """Return the best fit from several starts."""
         objective = self.objective
@@ -423,9 +419,10 @@ class SeriesFit(Settled):
     intervals: dict[str, Interval]
 
     @classmethod
-    def of(cls, found: Settled, intervals: dict[str, Interval], **more: Any) -> Self:
+    def of(cls, found: Settled, intervals: dict[str, Interval] | None = None, **more: Any) -> Self:
         """Return a fit with all its solutions; intervals are those of the most likely one."""
         search, level = found.search, found.search.series.level
+        intervals = intervals or search.intervals(found.best, level)
         several = search.objective.solutions(found.best, intervals, level)
         if several[0].misfit < found.best.misfit:
             found = replace(found, best=several[0])
@@ -460,7 +457,8 @@ class SeriesFit(Settled):
     @cached_property
     def forces(self) -> tuple[float, ...]:
         """Pull-off forces of the most likely parameters at the measured speeds [N]."""
-        return tuple(self.search.forces(self.best).tolist())
+        search, values = self.search, self.best.values
+        return tuple((search.table(values, search.grown(values)) * search.ratio(values)).tolist())
 
     @property
     def objective(self) -> Objective:
