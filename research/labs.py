@@ -280,7 +280,7 @@ def done(seed, given):
     identified = time.process_time()
     truth = {"work_of_adhesion": lab["work"], "equilibrium_gap": lab["gap"]}
     if growing:
-        opening = float(found.growth.opening.speed(lab["gap"]))
+        opening = float(found.search.opening.speed(lab["gap"]))
         more = (opening / lab["reference_speed"]) ** lab["exponent"]
         truth |= {"strengthening": 1 + more, "exponent": float(lab["exponent"])}
     beyond = found.objective.best(truth).misfit - found.best.misfit
