@@ -1,7 +1,9 @@
 """The command line as tests call it."""
 
+import csv
 import json
 import shlex
+from pathlib import Path
 
 import pytest
 
@@ -28,3 +30,9 @@ def answered(arguments, capsys):
     """Return the one JSON object that a command prints."""
     assert exit_status([*arguments, "--json"]) == 0, capsys.readouterr().err
     return json.loads(capsys.readouterr().out)
+
+
+def rows_of(path):
+    """Return the rows of a table that a command has written, each by its headings."""
+    with Path(path).open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))

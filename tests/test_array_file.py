@@ -1,6 +1,5 @@
 """Tests of the operation ``array``: its file, command, tables, picture, payload and yield."""
 
-import csv
 from dataclasses import replace
 from math import inf, isnan, pi, sqrt
 from pathlib import Path
@@ -9,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from picture_units import in_si
 from viscotack.design import read_array
 from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array
@@ -76,9 +75,9 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
 
 def test_the_command_writes_tables_and_a_picture(small):
     assert exit_status("array small.toml --csv f.csv --pads p.csv --plot a.svg") == 0
-    rows = list(csv.DictReader(Path("p.csv").read_text().splitlines()))
+    rows = rows_of("p.csv")
     assert [row["order"] for row in rows] == ["3", "1", "2"]
-    curve = csv.DictReader(Path("f.csv").read_text().splitlines())
+    curve = rows_of("f.csv")
     force = [float(row["force_N"]) for row in curve]
     assert force[0] == pytest.approx(6e-3, rel=1e-6)
     assert force[-1] == 0

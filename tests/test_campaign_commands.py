@@ -1,9 +1,7 @@
-import csv
-
 import pytest
 
 from campaign_work import Inline
-from command_line import answered, exit_status, refused
+from command_line import answered, exit_status, refused, rows_of
 from viscotack.campaign.store import locked
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]
@@ -29,8 +27,7 @@ def test_a_bare_csv_file_is_run_and_gives_its_columns_back(cases, inline, tmp_pa
     answer = answered(["campaign", "run", cases, "--out", folder, *quick], capsys)
     assert (answer["cases"], answer["done"], answer["failed"], answer["left"]) == (2, 2, 0, 0)
     assert exit_status(["campaign", "export", folder, "--csv", table]) == 0
-    with table.open(newline="") as file:
-        found = list(csv.DictReader(file))
+    found = rows_of(table)
     assert [tuple(row[name] for name in INPUTS) for row in found] == ROWS
     for row in found:
         assert float(row["pull_off_force"]) > 1 and float(row["work_to_pull_off"]) > 0

@@ -1,4 +1,3 @@
-import csv
 import os
 import resource
 import subprocess
@@ -7,6 +6,7 @@ import sys
 import pytest
 
 from campaign_work import Inline, picky, plan_of, stand_in, told
+from command_line import rows_of
 from viscotack import InputError
 from viscotack.campaign import FolderInUse, Store, export, merge, run, shard_of
 from viscotack.campaign.store import locked
@@ -94,8 +94,7 @@ TABLE = [
 
 def test_tables_give_the_very_numbers_back(tmp_path):
     export(TABLE, tmp_path / "t.csv")
-    with (tmp_path / "t.csv").open(newline="") as file:
-        first, second = csv.DictReader(file)
+    first, second = rows_of(tmp_path / "t.csv")
     assert list(first) == "name rate status steps trajectory_01 trajectory_02 late".split()
     assert list(first.values()) == ["a", repr(0.1 + 0.2), "detached", "7", "0.1", "", ""]
     export(TABLE, tmp_path / "t.csv", trajectories=False)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from viscotack.app.operations import ask
 from viscotack.model.problem.changes import changes_of
 
@@ -30,11 +30,6 @@ def case(tmp_path):
     with (tmp_path / "cases.csv").open("w", newline="") as stream:
         csv.writer(stream).writerows([HEADINGS, *ROWS])
     return tmp_path / "lens.toml"
-
-
-def rows_of(path):
-    with path.open(newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
 
 
 def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):

@@ -8,6 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status, refused
+from solids import creep_power_law
 from synthetic import jkr_detachment
 from viscotack.app import cli
 
@@ -37,9 +38,7 @@ def test_the_five_numbers_are_the_power_law(fake, capsys):
     assert exit_status([*SPHERE, *ISSUE]) == 0
     expected = vt.Groups(
         tabor=3.24,
-        material=vt.RetardationPowerLaw(
-            rubbery_modulus=1, glassy_modulus=10, exponent=0.8, tau0=1, poisson_ratio=0
-        ),
+        material=creep_power_law(1, 10, 0.8, 1, 0),
         start=vt.AtDepth(73),
         rate=316.23,
     )

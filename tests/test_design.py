@@ -1,6 +1,5 @@
 """Tests of designs: search, forces, margins, limits, targets, conditions, yield and front."""
 
-import csv
 from dataclasses import replace
 from math import exp, inf, log, pi
 from pathlib import Path
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from picture_units import in_si
 from solids import creep_power_law
 from viscotack.app.operations import ask
@@ -338,7 +337,7 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
 def test_the_command_writes_a_table_and_a_picture(small):
     line = "design small.toml --confirm 1 --accuracy 0.01 --csv d.csv --plot d.svg"
     assert exit_status(line) == 0
-    row = next(csv.DictReader(Path("d.csv").read_text().splitlines()))
+    row = rows_of("d.csv")[0]
     assert row["meets"] == "True"
     assert float(row["simulated_hold_N"]) == pytest.approx(float(row["hold_N"]), rel=0.05)
     assert Path("d.svg").stat().st_size > 5000

@@ -1,6 +1,5 @@
 """Tests of fits to every curve of a folder: values, standard errors, means, refusals."""
 
-import csv
 import json
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 from scipy.stats import t
 
 import tack_files
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from viscotack.errors import InputError
 from viscotack.identify import fit_curves, group_curves, identify_slow, slow_test
 from viscotack.lab import tack
@@ -89,8 +88,7 @@ def test_the_command_gives_each_curve_and_the_means(folder, tmp_path, capsys):
     half = t.ppf(0.9, 4) * np.std(found, ddof=1) / np.sqrt(5)
     assert row["work_of_adhesion_high_J_m2"] == pytest.approx(np.mean(found) + half)
     assert row["work_of_adhesion_low_J_m2"] == pytest.approx(np.mean(found) - half)
-    with table.open() as rows:
-        assert [float(x["work_of_adhesion_J_m2"]) for x in csv.DictReader(rows)] == found
+    assert [float(x["work_of_adhesion_J_m2"]) for x in rows_of(table)] == found
     assert "work_of_adhesion_J_m2_mean" in means.read_text()
     assert picture.stat().st_size > 10_000
 

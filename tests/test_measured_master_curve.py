@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from melts import ROOM, swept
 from reference_data import DMA
+from solids import creep_power_law
 from viscotack.lab import (
     FrequencySweeps,
     contradiction,
@@ -20,18 +21,11 @@ from viscotack.lab import (
 )
 from viscotack.lab.fit.master_curve import causal_misfit
 from viscotack.lab.fit.overlap import Curve, Hold, step_between
-from viscotack.model.materials import RetardationPowerLaw
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 
 TEN = np.geomspace(0.1, 100, 10)
 # the thesis's PDMS (Eq. 4.27) and its shift (Eq. 4.25)
-PDMS = RetardationPowerLaw(
-    rubbery_modulus=1.458e6,
-    glassy_modulus=3.089e9,
-    exponent=0.2207,
-    tau0=0.01876,
-    poisson_ratio=0.5,
-)
+PDMS = creep_power_law(1.458e6, 3.089e9, 0.2207, 0.01876, 0.5)
 SHIFT = WLF.from_glass_transition(158.15).at_reference(ROOM)
 # every ten kelvin where the shift is slow, closer towards the glass
 CHAMBER = np.array([176, 179, 182, 186, 190, 195, 200, 210, 225, 240, 260, 280, ROOM])
@@ -92,9 +86,7 @@ def test_a_first_point_that_lags_behind_its_temperature_hardly_counts():
 
 def test_a_vertical_shift_is_found_with_the_horizontal_one():
     # near the rubbery plateau the shape fixes both directions; along a power law it would not
-    solid = RetardationPowerLaw(
-        rubbery_modulus=1e6, glassy_modulus=1e8, exponent=0.8, tau0=2e-2, poisson_ratio=0.5
-    )
+    solid = creep_power_law(1e6, 1e8, 0.8, 2e-2, 0.5)
     law = Arrhenius(ROOM, 60e3)
     chamber = np.array([275.0, 280.0, 285.0, 290.0, ROOM])
     sweeps = measured(chamber, up=5e-4, law=law, solid=solid)

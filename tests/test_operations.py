@@ -23,6 +23,7 @@ from front_ends import (
     served,
     through_all,
 )
+from solids import standard_solid
 from stated import PUNCH, SPHERE
 from viscotack.app.api import application
 from viscotack.app.engine.jobs import Engine
@@ -33,7 +34,7 @@ from viscotack.app.operations.request import Caller, request_of
 from viscotack.app.operations.statement import statement
 from viscotack.app.operations.study import read_study, study_text
 from viscotack.errors import InputError
-from viscotack.model.materials import Passport, StandardSolid, write_passport
+from viscotack.model.materials import Passport, write_passport
 
 ROOT = Path(__file__).parents[1]
 FILES = [
@@ -48,9 +49,7 @@ FILES = [
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
 SWEEP = {"cases": [{"protocol.speed": 1e-4}], "problem": "lens.toml", "accuracy": 0.02}
 RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
-RUBBER = StandardSolid(
-    rubbery_modulus=1.458e6, glassy_modulus=4.374e6, tau0=1e-3, poisson_ratio=0.5
-)
+RUBBER = standard_solid(1.458e6, 4.374e6, 1e-3, 0.5)
 # Any option of a fit, to sweeps that do not state their units.
 FIT = {
     "files": ["sweeps.csv"],

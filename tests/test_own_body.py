@@ -45,18 +45,12 @@ def result(problem):
     return vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
 
 
-def test_it_is_simulated_saved_and_loaded(problem, result, tmp_path):
+def test_it_is_simulated_and_named(problem, result):
     stiff = vt.solve(replace(problem, body=vt.HalfSpace()), accuracy=1e-2, estimate_error=False)
     force = vt.pull_off_force(result)
     assert abs(force / vt.pull_off_force(stiff) - 1) > 0.02
-    path = tmp_path / "run.npz"
-    vt.save(result, path)
-    with pytest.raises(vt.InputError, match="'foundation'.*--with FILE.py"):
-        vt.load(path)
-    again = vt.load(path, also=(FOUNDATION,))
-    assert again.problem == problem and vt.pull_off_force(again) == force
     assert vt.run_id(problem) != vt.run_id(replace(problem, body=FOUNDATION(60e-6)))
-    assert vt.summary(again)["thickness"] == problem.groups().body.thickness
+    assert vt.summary(result)["thickness"] == problem.groups().body.thickness
 
 
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)

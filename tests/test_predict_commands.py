@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
-from command_line import answered, exit_status, refused
+from command_line import answered, exit_status, refused, rows_of
 from stated import LENS
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
@@ -37,11 +37,6 @@ def wrong(capsys, *arguments):
     return refused(["predict", *arguments], capsys)
 
 
-def table(path):
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def test_a_number_of_a_file_is_replaced_with_its_unit(lens, capsys):
     by_path = answer(capsys, lens, "--set", "sphere.radius=6 mm")
     assert by_path["problem"]["sphere"]["radius"] == 6e-3
@@ -69,7 +64,7 @@ def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
 def test_the_curve_is_written_and_drawn(lens, tmp_path, capsys):
     curve, picture = tmp_path / "curve.csv", tmp_path / "curve.png"
     found = answer(capsys, lens, "--curve", curve, "--plot", picture, "--compare")
-    rows = table(curve)
+    rows = rows_of(curve)
     names = ["depth", "force", "contact_radius", "depth_m", "force_N", "contact_radius_m"]
     assert list(rows[0]) == names and len(rows) == 24
     assert float(rows[-1]["force_N"]) == pytest.approx(-found["pull_off_force_N"], rel=1e-9, abs=0)
@@ -96,7 +91,7 @@ def test_a_table_keeps_its_rows_their_order_and_its_other_columns(tmp_path, caps
     counts = {"rows": 5, "inside": 2, "unanswered": 2}
     assert {name: found[name] for name in counts} == counts
     assert found["methods"]["surrogate"] == 2 and sum(found["methods"].values()) == 3
-    written = table(answers)
+    written = rows_of(answers)
     assert [tuple(row[name] for name in names) for row in written] == rows
     assert [row["inside"] for row in written] == ["true", "false", "false", "false", "true"]
     one = answer(capsys, *SPHERE, *RATE)
@@ -139,7 +134,7 @@ def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
     with plain.open("w", newline="") as stream:
         csv.writer(stream).writerows([columns, *rows])
     answer(capsys, plain, "--csv", text)
-    expected = table(text)
+    expected = rows_of(text)
     for row, other in zip(told[1:], expected, strict=True):
         for name, value in zip(told[0][6:], row[6:], strict=True):
             if isinstance(value, bool):
@@ -190,7 +185,7 @@ def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):
     simulated = found["simulation"]["pull_off_stress"]
     assert found["difference"]["pull_off_stress"] == found["pull_off_stress"] / simulated - 1
     assert set(found["interval_held"]) == {"pull_off_stress", "work_to_pull_off"}
-    rows = table(curve)
+    rows = rows_of(curve)
     assert list(rows[0]) == ["depth", "stress", "ligament"] and rows[0]["ligament"] == "1.0"
     # tension is positive, as `simulate --csv` has it
     assert float(rows[-1]["stress"]) == pytest.approx(found["pull_off_stress"])
@@ -198,6 +193,6 @@ def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):
     pad = answer(capsys, PAD, "--curve", curve, "--force")
     strength = vt.read_case(PAD).traction.strength
     assert pad["pull_off_stress_Pa"] == pytest.approx(pad["pull_off_stress"] * strength)
-    assert list(table(curve)[0])[3:] == ["depth_m", "stress_Pa", "ligament_m"]
+    assert list(rows_of(curve)[0])[3:] == ["depth_m", "stress_Pa", "ligament_m"]
     assert call(PAD) == 0
     assert f"{pad['pull_off_stress_Pa'] / 1e3:.5g} kPa" in capsys.readouterr().out

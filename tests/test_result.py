@@ -1,9 +1,8 @@
-import csv
-
 import numpy as np
 import pytest
 
 import viscotack as vt
+from command_line import rows_of
 from synthetic import SI, energies, jkr_crack_speed, jkr_detachment, jkr_result
 from viscotack.result import ShallowStart, receding_speed
 
@@ -71,8 +70,7 @@ def test_a_damaged_or_foreign_file_is_named_as_such(damage, tmp_path):
 def test_a_csv_has_si_columns_with_units_for_a_problem_in_si(tmp_path):
     result = jkr_result(problem=SI)
     vt.write_csv(result, tmp_path / "run.csv")
-    with open(tmp_path / "run.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(tmp_path / "run.csv")
     assert list(rows[0]) == [
         *("time", "depth", "force", "contact_radius", "edge_speed"),
         *("time_s", "depth_m", "force_N", "contact_radius_m", "edge_speed_m_per_s"),

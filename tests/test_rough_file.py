@@ -1,13 +1,12 @@
 """Rough surfaces in files: through all front ends, outputs, and what is refused."""
 
-import csv
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from viscotack.app.operations import ask
 from viscotack.campaign import CaseSettings, measure, read_plan
 from viscotack.errors import InputError
@@ -61,7 +60,7 @@ def small(tmp_path, monkeypatch):
 def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
     files = "--csv f.csv --maps m.npz --plot a.svg --film a.gif"
     assert exit_status(f"rough small.toml {files} --moments 3") == 0
-    rows = list(csv.DictReader(Path("f.csv").read_text().splitlines()))
+    rows = rows_of("f.csv")
     assert float(rows[-1]["contact_area_m2"]) == 0
     with np.load("m.npz") as maps:
         assert maps["map_gap_m"].shape[1:] == (16, 16)

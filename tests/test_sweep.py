@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from stated import case_text
 from viscotack import AtDepth, Groups, InputError, StandardSolid
 from viscotack.app.operations import ask
@@ -64,8 +64,7 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
     forces = [row["outputs"]["pull_off_force_N"] for row in (first, second)]
     assert forces[1] == pytest.approx(2 * forces[0], rel=0.05)
     assert bad["outputs"] is None and "speed" in bad["reason"]
-    with (tmp_path / "rows.csv").open(newline="") as stream:
-        written = list(csv.DictReader(stream))
+    written = rows_of(tmp_path / "rows.csv")
     assert [float(row["sphere.radius"]) for row in written] == [1e-3, 2e-3, 1e-3]
     assert [row["pull_off_force_N"] for row in written] == [*map(str, forces), ""]
 
@@ -124,7 +123,6 @@ def test_a_workbook_has_units_in_headings_or_cells_names_and_empty_rows(case, qu
         assert (rows[1]["reason"], answer.status) == ("empty row", 0)
         assert any("case 3: Radius [mm] of 2 m" in note for note in answer.notes)
         answer.files["csv"](tmp_path / "rows.csv")
-        with (tmp_path / "rows.csv").open(newline="") as stream:
-            written = list(csv.DictReader(stream))
+        written = rows_of(tmp_path / "rows.csv")
         assert [row["Lens"] for row in written] == ["a", "", "b"]
         assert [float(row["Radius [mm]"] or 0) for row in written] == [1, 0, 2000]

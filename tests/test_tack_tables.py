@@ -1,6 +1,5 @@
 """Tables of rig tests: a folder of files, statistics by speed, workbook, comparison with JKR."""
 
-import csv
 import json
 import shutil
 from dataclasses import replace
@@ -9,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from command_line import answered, exit_status, refused
+from command_line import answered, exit_status, refused, rows_of
 from viscotack.lab.tack import Measured, survey
 from viscotack.lab.tack.repeats import jkr_work, speed_table
 from viscotack.theory import jkr
@@ -88,10 +87,10 @@ def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "4 cycles, 1 refused" in said
     assert "172.12 mJ/m2" in said
-    rows = list(csv.DictReader(table.read_text().splitlines()))
+    rows = rows_of(table)
     assert [row["tests"] for row in rows] == ["2", "1", "1"]
     assert float(rows[0]["jkr_work_of_adhesion_J_m2"]) == pytest.approx(0.1721, rel=1e-3)
-    columns = list(csv.DictReader(curves.read_text().splitlines()))
+    columns = rows_of(curves)
     heads = list(columns[0])
     assert len(heads) == 8 and heads[0] == "depth [m] 1: lens_1_um_s.csv cycle 1, 1 um/s"
     fastest = [float(row[heads[-1]]) for row in columns if row[heads[-1]]]

@@ -1,6 +1,5 @@
 """Rig tests at several temperatures: reading, tables, shifted speeds, identification."""
 
-import csv
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -8,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from viscotack.errors import InputError
 from viscotack.identify import pull_offs
 from viscotack.lab.formats.tables import stated_temperature
@@ -139,7 +138,7 @@ def test_a_folder_at_several_temperatures_becomes_tables_and_a_picture(tmp_path,
     assert exit_status(["test", "read", folder, "--repeats", repeats]) == 0
     both = capsys.readouterr()
     assert "temperatures from 10 to 40 C" in both.err and "--temperature-in-name" in both.err
-    assert len(list(csv.DictReader(repeats.read_text().splitlines()))) == 3
+    assert len(rows_of(repeats)) == 3
     shift = ["--wlf", "5,150 K", "--reference-temperature", "20 degC"]
     named = ["test", "read", folder, "--temperature-in-name"]
     picture = tmp_path / "tests.png"
@@ -149,12 +148,12 @@ def test_a_folder_at_several_temperatures_becomes_tables_and_a_picture(tmp_path,
     assert "--temperature-in-name" not in both.err
     # the exponents at both temperatures, and that of the master curve
     assert both.out.count("0.138 +- ") == 2 and both.out.count("0.120 +- ") == 1
-    rows = list(csv.DictReader(repeats.read_text().splitlines()))
+    rows = rows_of(repeats)
     assert [float(row["temperature_K"]) for row in rows] == pytest.approx(
         3 * [283.15] + 3 * [313.15]
     )
     assert float(rows[0]["shifted_speed_m_s"]) == pytest.approx(SLOW * 1e-6, rel=0.01)
-    cycles = list(csv.DictReader(table.read_text().splitlines()))
+    cycles = rows_of(table)
     assert float(cycles[0]["shifted_speed_m_s"]) / float(cycles[0]["speed_m_s"]) == pytest.approx(
         10.0 ** float(SHIFT.log10_shift(float(cycles[0]["temperature_K"])))
     )

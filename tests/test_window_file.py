@@ -1,6 +1,5 @@
 """Tests of the operation ``window``: its file, command, tables and picture."""
 
-import csv
 from math import log, sqrt
 from pathlib import Path
 from statistics import NormalDist
@@ -9,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
+from command_line import exit_status, rows_of
 from picture_units import in_si
 from test_window import ELASTIC, contact, with_work
 from viscotack.app.operations import ask
@@ -65,7 +64,7 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, field):
 
 def test_the_command_writes_tables_and_a_picture(small):
     assert exit_status("window small.toml --csv map.csv --critical c.csv --plot map.svg") == 0
-    rows = list(csv.DictReader(Path("map.csv").read_text().splitlines()))
+    rows = rows_of("map.csv")
     assert len(rows) == 14
     assert {row["donor_opens"] for row in rows} == {"donor"}
     assert {row["receiver_opens"] for row in rows} == {"stamp"}
@@ -112,7 +111,7 @@ def folder(tmp_path, monkeypatch):
 def test_a_file_with_scatter_has_columns_of_probabilities(folder):
     Path("small.toml").write_text(FEW + "\n[scatter]\ndonor = 0.2\nstamp = 0.2\n")
     assert exit_status("window small.toml --csv map.csv") == 0
-    row = next(csv.DictReader(Path("map.csv").read_text().splitlines()))
+    row = rows_of("map.csv")[0]
     expected = NormalDist().cdf(log(50 / 20) / (0.2 * sqrt(2)))
     assert float(row["pick_probability"]) == pytest.approx(expected, abs=5e-3)
     assert float(row["transfer_probability"]) <= float(row["print_probability"])

@@ -159,15 +159,13 @@ def test_small_tabor_number_tends_to_bradley():
 @pytest.mark.march
 def test_modulus_ratio_one_is_elastic():
     start, tabor = vt.AtDepth(3.0), 1.0
-    elastic = vt.solve(
-        vt.Groups(tabor=tabor, material=ELASTIC, start=start, rate=1.0),
-        until="pull-off", estimate_error=False,
-    )  # fmt: skip
-    viscous = vt.solve(
-        vt.Groups(tabor=tabor, material=power_law(1.0, 0.6), start=start, rate=1e3),
-        until="pull-off", estimate_error=False,
-    )  # fmt: skip
-    assert vt.pull_off_force(viscous) == pytest.approx(vt.pull_off_force(elastic), rel=1e-6, abs=0)
+    elastic, viscous = (
+        vt.pull_off_force(
+            _run(vt.Groups(tabor, material, start, rate), Settings.for_accuracy(DEFAULT))
+        )
+        for material, rate in ((ELASTIC, 1.0), (power_law(1.0, 0.6), 1e3))
+    )
+    assert viscous == pytest.approx(elastic, rel=1e-6, abs=0)
 
 
 def test_slow_retraction_tends_to_elastic_detachment_linearly_in_the_rate():
