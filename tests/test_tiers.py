@@ -197,12 +197,14 @@ def test_below_the_slowest_rate_of_the_training_the_interval_contains_the_simula
     tabor, material, depth, rate
 ):
     case = groups(tabor, material, vt.AtDepth(depth), rate)
-    found, result = vt.predict(case), vt.solve(case, until="pull-off", estimate_error=False)
+    known = isinstance(material, vt.RetardationPowerLaw)
+    accuracy, widest = (2e-3, 1.05) if known else (0.01, 1.08)
+    found = vt.predict(case)
+    result = vt.solve(case, until="pull-off", accuracy=accuracy, estimate_error=False)
     assert found.method in {tier.name for tier in LEARNED}
     assert found.interval[0] <= vt.pull_off_force(result) <= found.interval[1]
     assert found.interval[1] / found.interval[0] < 1.02
     assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
-    widest = 1.05 if isinstance(material, vt.RetardationPowerLaw) else 1.08
     assert found.work_interval[1] / found.work_interval[0] < widest
 
 
