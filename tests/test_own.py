@@ -107,6 +107,7 @@ rounded-cone.rounding = 20e-6
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
 
 
+@pytest.mark.slow
 def test_a_theory_predicts_with_own_parts(capsys):
     sphere = "predict sphere --modulus-ratio 0.1 --tabor 30 --preload 200 --rate 100".split()
     own, other = (
