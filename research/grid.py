@@ -9,7 +9,6 @@ python -m research.grid size              # time and memory by the number of pix
 
 import argparse
 import resource
-import sys
 from dataclasses import replace
 from itertools import product
 from time import process_time
@@ -298,13 +297,7 @@ def size(given):
 def of_size(side):
     """Return the problem whose cost by the size of the grid is measured."""
     surface = self_affine(
-        side,
-        10e-6,
-        hurst=0.8,
-        rms_height=1.5e-6,
-        seed=4,
-        roll_off=640e-6,
-        shortest=80e-6,
+        side, 10e-6, hurst=0.8, rms_height=1.5e-6, seed=4, roll_off=640e-6, shortest=80e-6
     )
     law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
     test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
@@ -328,8 +321,7 @@ def main():
     parser.add_argument("--limit", type=float, default=60.0)
     given = parser.parse_args()
     parts[given.part](given)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -44,7 +44,6 @@ SCATTER, NOISE, LEVEL = 0.03, 0.004, 0.9
 # Largest Tabor numbers of a simulated truth, without growth: always, and where no crack is steady.
 SIMULATED, SIMULABLE = 25.0, 100.0
 GROWING, DISTURBED = 20, 30  # of the seed of a lab
-USUAL = argparse.Namespace(growing=False, disturbed=False, tabor=(10.0, 1e4))
 SHORT = 10.0  # Tabor number beyond which attraction out of contact is left out
 KINDS = ("none", "drift", "dropped", "compliance", "temperature", "law", "few points")
 SHIFT = vt.materials.shift.WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
@@ -328,7 +327,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--growing", action="store_true")
     parser.add_argument("--disturbed", action="store_true")
-    parser.add_argument("--tabor", type=float, nargs=2, default=USUAL.tabor)
+    parser.add_argument("--tabor", type=float, nargs=2, default=(10.0, 1e4))
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--out", type=Path, default=Path("labs.jsonl"))

@@ -83,11 +83,7 @@ def hat_matrix(nodes: int, spacing: float) -> npt.NDArray:
                 dx = 2.5 * _S**4 * _DS
                 s = r[at] + (r[other] - r[at]) * x
                 height = 1 - x if at == j else x
-                distance = np.where(
-                    np.arange(nodes)[:, None] == at,
-                    spacing * x,
-                    np.abs(rows - s),
-                )
+                distance = np.where(np.arange(nodes)[:, None] == at, spacing * x, np.abs(rows - s))
                 G[:, j] += (kernel(rows, s[None, :], distance) * (height * dx)).sum(1) * spacing
     return G
 
@@ -133,12 +129,7 @@ def _jkr_gap(r: npt.NDArray, tabor: float, depth: float) -> npt.NDArray:
 
 
 def plain_sphere(
-    problem: Problem | Groups,
-    *,
-    nodes: int,
-    outer_radius: float,
-    steps: int,
-    last_depth: float,
+    problem: Problem | Groups, *, nodes: int, outer_radius: float, steps: int, last_depth: float
 ) -> Result:
     """Simulate the retraction of a sphere with the published algorithm: see :func:`retract`.
 

@@ -127,11 +127,7 @@ def _curve(kind: Kind, sense: str) -> tuple[Column, ...]:
     return (
         Column("travel_to_pull_off", "h0", "travel from the start to the pull-off"),
         *(
-            Column(
-                f"{force}_at_{key}",
-                unit,
-                f"{force} at {share} % of the travel",
-            )
+            Column(f"{force}_at_{key}", unit, f"{force} at {share} % of the travel")
             for key, share in shares.items()
         ),
         Column(

@@ -15,13 +15,7 @@ from pathlib import Path
 
 from .comparison import draw, table
 from .cycles import grown
-from .prediction import (
-    SINGLE,
-    exact_sphere_over_parabola,
-    layer_over_half_space,
-    measured,
-    rows,
-)
+from .prediction import SINGLE, exact_sphere_over_parabola, layer_over_half_space, measured, rows
 
 HERE = Path(__file__).parent
 THICKNESSES = (10e-6, 20e-6, 50e-6, 100e-6)  # m

@@ -146,10 +146,7 @@ def matched(
         work, time = np.exp(unknown)
         found = pull(law(test.contact_modulus, time), work, gap, SPEEDS[BASE])
         return np.log(
-            [
-                found.jump_in_force / test.jump_in_force,
-                found.pull_off_force / test.pull_off_force,
-            ]
+            [found.jump_in_force / test.jump_in_force, found.pull_off_force / test.pull_off_force]
         )
 
     start = np.log([0.9 * test.work_of_adhesion, 1e-5])

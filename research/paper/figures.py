@@ -179,15 +179,18 @@ def contacts():
     return figure
 
 
-def _from_rest(tabor, rate):
-    """Return the pull-off force from a relaxed start, nan where the theory does not hold."""
-    groups = vt.Groups(
-        tabor=tabor, material=reduced(0.1), start=vt.AtRadius(4.0), rate=rate * tabor
-    )
+def _force(groups):
+    """Return the pull-off force, nan where the theory does not hold."""
     try:
         return vt.crack_contact(groups).pull_off_force
     except vt.OutOfRange:
         return np.nan
+
+
+def _from_rest(tabor, rate):
+    """Return the pull-off force from a relaxed start."""
+    start = vt.AtRadius(4.0)
+    return _force(vt.Groups(tabor=tabor, material=reduced(0.1), start=start, rate=rate * tabor))
 
 
 def _cycle(rate, tabor=30.0):
@@ -199,10 +202,7 @@ def _cycle(rate, tabor=30.0):
         moves=(vt.Approach(rate * tabor, vt.AtDepth(6 * tabor)),),
         rate=rate * tabor,
     )
-    try:
-        return vt.crack_contact(groups).pull_off_force
-    except vt.OutOfRange:
-        return np.nan
+    return _force(groups)
 
 
 FIGURES = (energies, zones, coefficients, quasi_steady, factor, contacts)

@@ -28,10 +28,7 @@ def numbers_limits(bench: Bench) -> Numbers:
     slow = table(
         bench.each, [Work(sphere(1.0, 3.0, tabor=mu, k=1), accuracy=_FINE) for mu in TABORS]
     )
-    crept = table(
-        bench.each,
-        [Work(sphere(1e-4, 5.0, exponent=1.6), accuracy=_FINE)],
-    )
+    crept = table(bench.each, [Work(sphere(1e-4, 5.0, exponent=1.6), accuracy=_FINE)])
     fast = table(bench.each, [Work(sphere(_FAST, d, exponent=1.6), accuracy=_FINE) for d in DEPTHS])
     b1 = 4 / np.pi
     layers = [
@@ -43,8 +40,7 @@ def numbers_limits(bench: Bench) -> Numbers:
     limit = np.polynomial.polynomial.polyfit(1 / np.sqrt(np.array(SIZES)), stress, 2)[0]
     broad = table(bench.each, [Work(sphere(100.0, 73.0, exponent=0.2))])
     narrow = table(
-        bench.each,
-        [Work(punch(50.0, r, geometry=vt.FlatPunch(5.0))) for r in (1e-2, 1e4)],
+        bench.each, [Work(punch(50.0, r, geometry=vt.FlatPunch(5.0))) for r in (1e-2, 1e4)]
     )
     lens_rows = np.array(list(bench.each(both, SPEEDS)))
     return {

@@ -35,10 +35,7 @@ _WORDS = {
 def numbers_5_2(bench: Bench) -> Numbers:
     """Return depth, force, pull-off force and work of each panel."""
     return {
-        name: {
-            "case": [list(case) for case in some],
-            "curves": list(bench.each(unloaded, some)),
-        }
+        name: {"case": [list(case) for case in some], "curves": list(bench.each(unloaded, some))}
         for name, some in PANELS.items()
     }
 
@@ -142,10 +139,7 @@ def with_points(case: tuple[float, float, float]) -> dict[str, Any]:
     rate, exponent, height = case
     start = height * _HEIGHT
     result = vt.solve(
-        sphere(rate, start, exponent=exponent),
-        until="pull-off",
-        whole=True,
-        estimate_error=False,
+        sphere(rate, start, exponent=exponent), until="pull-off", whole=True, estimate_error=False
     )
     of = curve(result, 120)
     travel = start - vt.depth_at_pull_off(result)

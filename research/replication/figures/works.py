@@ -1,5 +1,7 @@
 """The work to pull-off: models, simulation, and bounds."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -94,7 +96,7 @@ _RADII = (6.1377, 3.0689, 1.9564, 2.0139)
 _RATE, _FAST = 1e5, 1e9
 
 
-def jkr_work(tabor: object) -> object:
+def jkr_work(tabor: Any) -> Any:
     """Return the work to pull-off of JKR [1.5 pi R dg0 h0], Eq. 46."""
     # in the units of Eq. 4.16 the depth is mu pi^(2/3) h0
     unit = float(jkr.work_to_pull_off(**UNIT)) / CHAPTER_4
@@ -114,7 +116,7 @@ def numbers_A_6(bench: Bench) -> Numbers:
         "error": found["work_error"][0],
         "fast": found["work"][1],
         "estimate": 4 / 3 * np.array(_RADII) ** 2 * np.pi ** (2 / 3) * mu,
-        "jkr_fast": np.asarray(jkr_work(mu)) * K ** (-2 / 3),
+        "jkr_fast": jkr_work(mu) * K ** (-2 / 3),
     }
 
 
@@ -149,7 +151,7 @@ def numbers_A_7(bench: Bench) -> Numbers:
         "simulated_rate": WIDE_POINTS,
         "simulated": found["work"],
         "error": found["work_error"],
-        "rubbery": float(np.asarray(jkr_work(LARGE_TABOR))),
+        "rubbery": float(jkr_work(LARGE_TABOR)),
         "glassy": float(4 / 3 * _RADII[-1] ** 2 * np.pi ** (2 / 3) * LARGE_TABOR),
     }
 
@@ -176,24 +178,21 @@ _SHOWN = 500
 def numbers_work_bound(bench: Bench) -> Numbers:
     """Return works over the bound by glassy Tabor number, of rows that start in compression."""
     unit = float(jkr.work_to_instability(**UNIT)) / CHAPTER_4
-    share, glassy, ratio, below, all_below = [], [], [], [], 0
+    share, glassy, ratio, over = [], [], [], []
     for name in ("thesis", "broad"):
         rows = datasets.load(name)
         k, mu, work = (
             rows.column(column).to_numpy()
             for column in ("modulus_ratio", "tabor", "work_to_pull_off")
         )
-        start = rows.column("trajectory_force").to_pylist()
-        pressed = np.array([force[0] > 0 for force in start])
-        known = pressed & np.isfinite(work)
+        pressed = [force[0] > 0 for force in rows.column("trajectory_force").to_pylist()]
+        known = np.array(pressed) & np.isfinite(work)
         share.append((work / (unit * mu * np.pi ** (2 / 3) * k ** (-5 / 3)))[known])
         glassy.append((mu * k ** (1 / 3))[known])
         ratio.append(k[known])
-        jkr_work = float(jkr.work_to_pull_off(**UNIT)) / CHAPTER_4 * mu * np.pi ** (2 / 3)
-        below.append(float(np.min((work / jkr_work)[known])))
-        all_below += int(np.sum((work < jkr_work)[known]))
-    every, tabor = np.concatenate(share), np.concatenate(glassy)
-    short, k = tabor > LEAST_TABOR, np.concatenate(ratio)
+        over.append((work / jkr_work(mu))[known])
+    every, tabor, k, over = (np.concatenate(x) for x in (share, glassy, ratio, over))
+    short = tabor > LEAST_TABOR
     ranges = list(zip(RATIOS, RATIOS[1:], strict=False))
     some = np.random.default_rng(1).permutation(len(every))[:_SHOWN]
     return {
@@ -208,8 +207,8 @@ def numbers_work_bound(bench: Bench) -> Numbers:
         "largest_at_tabor": float(tabor[int(np.argmax(every))]),
         "glassy_tabor": tabor[some],
         "share": every[some],
-        "least_over_eq_46": min(below),
-        "rows_below_eq_46": all_below,
+        "least_over_eq_46": float(np.min(over)),
+        "rows_below_eq_46": int(np.sum(over < 1)),
     }
 
 
