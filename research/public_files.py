@@ -35,18 +35,9 @@ import pandas as pd
 from viscotack import lab
 from viscotack.errors import InputError
 
-# what a measurement is kept in; scripts, pictures and documents are none
-DATA = {
-    ".csv", ".txt", ".tts", ".osc", ".gt", ".creep", ".ttsf", ".shear", ".shearxs", ".uext",
-    ".laos", ".dls", ".reac", ".rouse", ".sans", ".gpc", ".mwd", ".dmwd", ".xls", ".xlsx", ".json",
-}  # fmt: skip
-# words in paths of what is no measurement: records of programs, texts for people
-NO_DATA = (
-    "*/.*", "*/requirements.txt", "*readme*", "*license*", "*tutorial*", "*egg-info*",
-    "*/graphify*", "*/scripts/*", "*source_code*", "*modified_bob*", "*/runtime.txt",
-    "*/binder/*", "*/config/*.json", "*/command_upload.txt", "*/*.egg-info/*", "*/schema/*",
-    "*computation_times*",
-)  # fmt: skip
+# Endings of data, paths of other files, and what is refused, whatever is given: path, words of the
+# refusal, and why that is right.
+EXPECTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 MEGA = 1e6
 
 
@@ -323,9 +314,6 @@ RECIPES = (
             "*/epstein.csv", "*bayesian_owchirp_tts.csv"), "dma", either),
 )  # fmt: skip
 
-# what is refused, whatever is given: path, words of the refusal, and why that is right
-REFUSED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))["refused"]
-
 
 def celsius(path, name):
     """Return the temperatures that a file states [C], or None where it states none."""
@@ -436,7 +424,7 @@ GIVEN = {
 def outcome(path, name):
     """Return the outcome and the words for one file."""
     recipe = recipe_of(name, RECIPES)
-    refusal = next((r for r in REFUSED if fnmatch(name, r[0])), None)
+    refusal = next((r for r in EXPECTED["refused"] if fnmatch(name, r[0])), None)
     refusal = None if recipe in NEWER else refusal
     # a shift table is no test, and has a reader of its own
     shifts = (recipe and recipe.test == "shifts") or "TTS_Acierno" in name
@@ -489,9 +477,13 @@ def files_of(folders):
     for folder in map(Path, folders):
         for path in sorted(folder.rglob("*")):
             name = f"{folder.name}/{path.relative_to(folder)}"
-            if path.suffix.lower() not in DATA or not path.is_file() or not path.stat().st_size:
+            if (
+                path.suffix.lower() not in EXPECTED["data"]
+                or not path.is_file()
+                or not path.stat().st_size
+            ):
                 continue
-            if not any(fnmatch(name.lower(), word) for word in NO_DATA):
+            if not any(fnmatch(name.lower(), word) for word in EXPECTED["no_data"]):
                 yield name, path
 
 
