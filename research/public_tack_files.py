@@ -71,7 +71,7 @@ def misread(path):
 
 def outcome(paths):
     """Return the rows of the cycles that were read, and the reasons of the others."""
-    rows, reasons = [], []
+    rows = []
     found = tack.survey(paths)
     for one in found.evaluations:
         for cycle in one.cycles:
@@ -85,7 +85,7 @@ def outcome(paths):
                     cycle,
                 )
             )
-    reasons += [one.reason.removeprefix(one.path) for one in found.unread]
+    reasons = [one.reason.removeprefix(one.path) for one in found.unread]
     reasons += [refusal.reason for _, refusal in found.refused]
     return rows, reasons
 

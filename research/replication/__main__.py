@@ -68,7 +68,7 @@ def claim(given: Given) -> None:
         one = named(given.name)
         found, standing = one.judged(bench.of)
         print(f"{one.says} ({one.place})")
-        print(f"  thesis: {one.thesis}\n  here: {found.said()}")
+        print(f"  thesis: {one.thesis}\n  here: {found.words}")
         print(f"  {one.verdict}, {standing}: {one.evidence}")
 
 

@@ -39,7 +39,7 @@ def test_a_verdict_falls_with_the_number_it_rests_on():
     with pytest.raises(vt.InputError, match="upper-bound-between"):
         named("upper-bound-between").judged(less)
     with pytest.raises(vt.InputError, match="b1"):
-        replace(named("b1"), measure=lambda of: Measured(np.nan)).judged(kept)
+        replace(named("b1"), measure=lambda of: Measured(np.nan, "")).judged(kept)
 
 
 def test_the_slow_coefficient_is_that_of_the_theory():

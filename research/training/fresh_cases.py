@@ -250,9 +250,7 @@ def label(case: Case, accuracy: float = ACCURACY) -> dict[str, Any]:
 
 
 def labelled(
-    cases: list[Case],
-    folder: Path,
-    accuracy: float = ACCURACY,
+    cases: list[Case], folder: Path, accuracy: float = ACCURACY
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
     """Iterate over cases with their labels; missing ones are simulated.
 

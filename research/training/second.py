@@ -143,9 +143,7 @@ def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
 
 
 def _labelled(
-    cases: list[fresh_cases.Case],
-    labels: Path,
-    accuracy: float = fresh_cases.ACCURACY,
+    cases: list[fresh_cases.Case], labels: Path, accuracy: float = fresh_cases.ACCURACY
 ) -> list[tuple[fresh_cases.Case, dict[str, Any]]]:
     """Return the cases that have an answer, with their labels."""
     pairs = fresh_cases.labelled(cases, labels, accuracy)

@@ -45,11 +45,7 @@ class Measured:
     """The number on which a verdict rests, and what stands in the ledger, with unit and error."""
 
     value: float
-    words: str = ""
-
-    def said(self) -> str:
-        """Return what stands in the ledger."""
-        return self.words or f"{self.value:.4g}"
+    words: str
 
 
 def listed(form: str, *columns: Iterable[Any]) -> str:
@@ -112,7 +108,7 @@ class Claim:
             f"`{self.name}`",
             f"{self.says} ({self.place})",
             thesis,
-            found.said(),
+            found.words,
             apart,
             f"**{self.verdict}**, {standing}",
             self.evidence,

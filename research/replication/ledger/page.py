@@ -66,7 +66,7 @@ def _opening(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
 
 def _differences(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
     rows = [
-        f"| `{claim.name}` | {claim.says} ({claim.place}) | {found.said()} | {claim.evidence} |"
+        f"| `{claim.name}` | {claim.says} ({claim.place}) | {found.words} | {claim.evidence} |"
         for claim, (found, _) in judged.items()
         if claim.verdict in (Verdict.FAILS, Verdict.OPEN)
     ]
