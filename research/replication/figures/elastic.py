@@ -71,10 +71,10 @@ ONE = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 _LARGEST_DEPTH = 2.5
 
 
-def strength(tabor: float) -> float:
+def strength(tabor: float, case: dict[str, float] = ONE) -> float:
     """Return the strength of the Dugdale contact with the peak of a Lennard-Jones one."""
     parameter = float(maugis.parameter_from_tabor(tabor))
-    return parameter / float(maugis.maugis_parameter(strength=1.0, **ONE))
+    return parameter / float(maugis.maugis_parameter(strength=1.0, **case))
 
 
 def numbers_2_2b(bench: Bench) -> Numbers:

@@ -12,6 +12,7 @@ from viscotack.theory import empirical, jkr, maugis, persson_brener, rate, trans
 
 from ..bench import Bench, Numbers
 from .cases import ALPHA, ALPHA_LJ, LENS, PDMS, PDMS_WORK, PRELOAD, RANGES, TABOR, curve, lens
+from .elastic import strength
 from .style import COLOURS, MARKERS, SIMULATED, decades, panels
 
 SPEED = 0.98e-6
@@ -21,19 +22,16 @@ _ELASTIC = {"radius": LENS, "contact_modulus": PDMS.contact_modulus, "work_of_ad
 def numbers_4_9(bench: Bench) -> Numbers:
     """Return force [mN] by radius [mm] of each range, of JKR, and of Maugis at mu = 2.05."""
     a = np.geomspace(0.02e-3, 0.45e-3, 120)
-    found: Numbers = {
+    m = 1 + np.exp(np.linspace(-12, 4, 200))
+    of = maugis.curve(m, strength=strength(2.05, _ELASTIC), **_ELASTIC)
+    return {
         "jkr": {"radius": 1e3 * a, "force": 1e3 * np.asarray(jkr.force(a, **_ELASTIC))},
-        "maugis": _maugis(),
+        "maugis": {
+            "radius": 1e3 * np.asarray(of.contact_radius),
+            "force": 1e3 * np.asarray(of.force),
+        },
         "simulated": dict(zip(RANGES, bench.each(retracted, RANGES.values()), strict=True)),
     }
-    return found
-
-
-def _maugis() -> Numbers:
-    parameter = float(maugis.parameter_from_tabor(2.05))
-    strength = parameter / float(maugis.maugis_parameter(strength=1.0, **_ELASTIC))
-    of = maugis.curve(1 + np.exp(np.linspace(-12, 4, 200)), strength=strength, **_ELASTIC)
-    return {"radius": 1e3 * np.asarray(of.contact_radius), "force": 1e3 * np.asarray(of.force)}
 
 
 def retracted(gap: float) -> dict[str, Any]:
