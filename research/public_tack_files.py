@@ -85,9 +85,7 @@ def outcome(paths):
                     cycle,
                 )
             )
-    reasons = [one.reason.removeprefix(one.path) for one in found.unread]
-    reasons += [refusal.reason for _, refusal in found.refused]
-    return rows, reasons
+    return rows, [reason for _, reason in found.reasons]
 
 
 def main():
