@@ -145,9 +145,7 @@ class Trial:
         for name in ("speed", "preload", "radius", "approach_speed"):
             value = getattr(self, name)
             if value is not None and not 0 < value < np.inf:
-                raise InputError(
-                    f"the {name} of a test must be positive, got {value!r}", field=name
-                )
+                raise InputError(f"the {name} must be positive, got {value!r}", field=name)
         if (self.dwell is None) != (self.approach_speed is None):
             lost = "dwell" if self.dwell is None else "approach_speed"
             words = "a dwell needs the speed of the approach, and the other way round"
@@ -224,9 +222,10 @@ class PullOff:
         """Speed, shifted, in words."""
         return readable(self.speed, "m/s", digits=3)
 
-    def conditions(self, digits: int = 4) -> str:
-        """Return temperature, if known, and true speed in words."""
-        at = readable(self.true_speed, "m/s", digits=digits)
+    @property
+    def conditions(self) -> str:
+        """Temperature, if known, and true speed in words."""
+        at = readable(self.true_speed, "m/s", digits=3)
         return at if self.temperature is None else f"{self.temperature - 273.15:.3g} C, {at}"
 
 

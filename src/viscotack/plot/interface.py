@@ -160,7 +160,7 @@ def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
         for i, colour, (measured, fitted) in zip(chosen, colours, pairs, strict=True):
             one = fit.series[i]
             measured_force, fitted_force = said(one.force.value, "N"), said(fit.forces[i], "N")
-            where = one.conditions(3).replace(" u", " µ")
+            where = one.conditions.replace(" u", " µ")
             label = f"{where}: {measured_force}, fit {fitted_force}"
             travel, force = measured
             above.plot(travel, force, lw=1.0, color=colour, label=label)
