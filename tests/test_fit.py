@@ -13,11 +13,11 @@ from viscotack.identify import PullOff, RateSeries, identify_rates
 from viscotack.lab import fit, master_curve, read, read_dma
 from viscotack.lab.fit import errors as fit_errors
 from viscotack.lab.fit import prony
-from viscotack.lab.fit.fitting import Tried, _alike
+from viscotack.lab.fit.fitting import _alike
 from viscotack.lab.fit.observed import observed
 from viscotack.lab.fit.power_law import fit_constants
 from viscotack.lab.fit.prony import fit_series
-from viscotack.lab.fit.report import issued
+from viscotack.lab.fit.report import Fitted, issued
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
 from viscotack.model.materials.library import published
@@ -94,9 +94,12 @@ def test_best_finds_the_law_that_made_the_numbers():
 def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, chosen):
     solid = fractional_zener(1e6, 1e9, 0.5, 1e-3, 0.5)
     tried = [
-        Tried("fractional-zener", solid, 10.0 + apart, 4),
-        Tried("prony", solid, 10.0, 14),
-        Tried("sls", solid, 12.2, 3),
+        Fitted(model=model, material=solid, scatter=0.01, criterion=criterion, constants=count)
+        for model, criterion, count in (
+            ("fractional-zener", 10.0 + apart, 4),
+            ("prony", 10.0, 14),
+            ("sls", 12.2, 3),
+        )
     ]
     alike = _alike(tried)
     assert alike[0].model == chosen

@@ -9,7 +9,7 @@ factors is propagated by fitting shifted curves again.
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from statistics import NormalDist
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from viscotack.units import readable
 from .observed import Data, Observed, observed, only, thinned
 from .power_law import KINDS, fit_constants, fitted_constants
 from .prony import NAMES, change, fit_series, open_ends, with_noise
-from .report import ALIKE, FitReport, Fitted, Interval, information_criterion
+from .report import ALIKE, FitReport, Fitted, Interval
 
 # Ratio of a plateau to the measured moduli above which the law extrapolates.
 _BEYOND = 1.25
@@ -286,7 +286,11 @@ def fit(
         seen = only(seen, "storage")
     with one_blas_thread():
         seen = with_noise(thinned(seen))
-        tried = [_tried(seen, each) for each in _affordable(seen)] if model == "best" else []
+        # without intervals, which only the model that is used needs
+        tried = [
+            fit_series(seen) if each == "prony" else fitted_constants(seen, model=each, known={})
+            for each in (_affordable(seen) if model == "best" else ())
+        ]
         alike = _alike(tried)
         if alike:
             model = alike[0].model
@@ -306,7 +310,6 @@ def fit(
         unknown = undetermined(seen, found.material, found.intervals)
         return FitReport(
             **vars(found),
-            model=model,
             observed=seen,
             level=level,
             undetermined=(*unknown, *_undecided(alike)),
@@ -314,23 +317,14 @@ def fit(
         )
 
 
-class Tried(NamedTuple):
-    """A model fitted without intervals: its solid, criterion and number of constants."""
-
-    model: str
-    material: Any
-    criterion: float
-    constants: int
-
-
-def _alike(tried: Sequence[Tried]) -> list[Tried]:
+def _alike(tried: Sequence[Fitted]) -> list[Fitted]:
     """Return the models that the data do not distinguish from the best, the simplest first."""
     least = min((one.criterion for one in tried), default=0.0)
     alike = [one for one in tried if one.criterion <= least + ALIKE]
     return sorted(alike, key=lambda one: (one.constants, one.criterion))
 
 
-def _undecided(alike: Sequence[Tried]) -> tuple[str, ...]:
+def _undecided(alike: Sequence[Fitted]) -> tuple[str, ...]:
     """Return a sentence on the models that the data do not distinguish, with their plateaus."""
     if len(alike) < 2:
         return ()
@@ -356,16 +350,6 @@ def _affordable(data: Observed) -> list[str]:
             f"{data.values.size} numbers are too few to compare models; name the one to fit"
         )
     return found
-
-
-def _tried(data: Observed, model: str) -> Tried:
-    """Fit a model without intervals."""
-    if model == "prony":
-        found = fit_series(data)
-        return Tried(model, found.material, found.criterion, found.constants)
-    material, constants = fitted_constants(data, model=model, known={})
-    criterion = information_criterion(data.weighed(data.residuals(material)), constants)
-    return Tried(model, material, criterion, constants)
 
 
 _DRAWS = 12
@@ -463,7 +447,7 @@ def _refitted(report: FitReport, curve: MasterCurve) -> Any:
         arms = len(report.material.branches)
         return fit_series(seen, arms=arms).material
     known = {each.name: each.value for each in report.intervals if each.known}
-    return fitted_constants(seen, model=report.model, known=known)[0]
+    return fitted_constants(seen, model=report.model, known=known).material
 
 
 def _wider(each: Interval, wider: float) -> Interval:

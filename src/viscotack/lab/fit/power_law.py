@@ -30,7 +30,7 @@ from viscotack.model.materials.interconversion import reciprocal
 
 from .errors import errors
 from .observed import Observed
-from .report import Fitted, Interval, deviation, information_criterion
+from .report import Fitted, Interval, rated
 
 _POOR = 0.25  # half-width of the interval of ln(constant) above which the profile is computed
 
@@ -287,8 +287,8 @@ def fit_constants(
     """
     search = Search.of(data, model, known)
     best = search.minimum()
-    residuals = data.weighed(data.residuals(search.solid(best.x)))
-    known_errors = errors(data, residuals, best.jac)
+    found = rated(data, model, search.solid(best.x), len(search.free))
+    known_errors = errors(data, data.weighed(data.residuals(found.material)), best.jac)
     influences = np.linalg.pinv(best.jac)
     half = known_errors.half_width(influences, level)
     poor = bool(np.any(half > _POOR) or np.min([best.x - search.low, search.high - best.x]) < 1e-3)
@@ -305,30 +305,24 @@ def fit_constants(
                 for i in range(len(search.free))
             ]
         )
-    material = search.solid(best.x)
-    found = dict(zip(search.free, np.exp(ends), strict=True))
+    fitted = dict(zip(search.free, np.exp(ends), strict=True))
     intervals = []
     for name in search.names:
-        value = float(getattr(material, name))
-        low, high = map(float, found.get(name, (value, value)))
-        intervals.append(Interval(name, value, low, high, known=name not in found))
-    sample = _draws(search, best.x, known_errors.covariance(influences), ends, draws, seed)
-    criterion = information_criterion(residuals, len(search.free))
-    return Fitted(
-        material=material,
+        value = float(getattr(found.material, name))
+        low, high = map(float, fitted.get(name, (value, value)))
+        intervals.append(Interval(name, value, low, high, known=name not in fitted))
+    return replace(
+        found,
         intervals=tuple(intervals),
-        scatter=deviation(residuals, len(search.free)),
         shared=known_errors.words(),
-        constants=len(search.free),
-        criterion=criterion,
-        draws=sample,
+        draws=_draws(search, best.x, known_errors.covariance(influences), ends, draws, seed),
     )
 
 
-def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> tuple[Any, int]:
+def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> Fitted:
     """Return the fitted solid and its number of constants, without intervals."""
     search = Search.of(data, model, known)
-    return search.solid(search.minimum().x), len(search.free)
+    return rated(data, model, search.solid(search.minimum().x), len(search.free))
 
 
 def _draws(

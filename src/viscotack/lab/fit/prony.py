@@ -40,7 +40,7 @@ from viscotack.model.materials.modes import maxwell
 
 from .errors import Errors, errors
 from .observed import Observed, only
-from .report import Fitted, Interval, deviation, information_criterion
+from .report import Fitted, Interval, information_criterion, rated
 
 # Iterations per amplitude. Columns of neighbouring times are nearly parallel, so the active set
 # changes often: half of the noisy sweeps need more than the usual 3, and none that converges more
@@ -236,32 +236,29 @@ def fit_series(
     if arms is not None and arms <= _MOVED:
         times, weights = _moved(data, chosen, times, weights)
     material = _material(data, times, weights)
-    residuals = data.weighed(data.residuals(material))
-    constants = int(np.count_nonzero(weights))
-    shared = ""
-    intervals = tuple(
-        Interval(name, float(getattr(material, name)), np.nan, np.nan) for name in NAMES
-    )
-    sample: tuple[Prony, ...] = ()
-    if draws:
-        # derivatives of ln(fitted value) by each weight, over the noise
-        basis = _basis(data, times)
-        slopes = basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
-        known = errors(data, residuals, slopes)
-        shared = known.words()
-        intervals = _plateaus(data, material, times, weights, known, level, seed)
-        sample = _bootstrap(data, times, weights, known, draws, seed)
-    return Fitted(
-        material=material,
-        intervals=intervals,
-        scatter=deviation(residuals, constants),
-        shared=shared,
-        constants=constants,
-        grid=chosen.size,
+    ends = [Interval(name, float(getattr(material, name)), np.nan, np.nan) for name in NAMES]
+    found = rated(
+        data,
+        "prony",
+        material,
+        int(np.count_nonzero(weights)),
         # a number of grid times that the data choose counts as one constant
-        criterion=information_criterion(residuals, constants + (arms is None)),
+        chosen=arms is None,
+        grid=chosen.size,
         compared=tuple(compared),
-        draws=sample,
+        intervals=tuple(ends),
+    )
+    if not draws:
+        return found
+    # derivatives of ln(fitted value) by each weight, over the noise
+    basis = _basis(data, times)
+    slopes = basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
+    known = errors(data, data.weighed(data.residuals(material)), slopes)
+    return replace(
+        found,
+        shared=known.words(),
+        intervals=_plateaus(data, material, times, weights, known, level, seed),
+        draws=_bootstrap(data, times, weights, known, draws, seed),
     )
 
 

@@ -81,6 +81,8 @@ class Fitted:
 
     Attributes
     ----------
+    model : str
+        "power-law", "relaxation-power-law", "sls", "fractional-zener" or "prony".
     material : Material
         The fitted solid, tensile.
     intervals : tuple of Interval
@@ -102,20 +104,34 @@ class Fitted:
         For a Prony series, the number of relaxation times tried.
     """
 
+    model: str
     material: Any
-    intervals: tuple[Interval, ...]
     scatter: float
     constants: int
     criterion: float
-    draws: tuple[Any, ...]
+    intervals: tuple[Interval, ...] = ()
+    draws: tuple[Any, ...] = ()
     compared: tuple[tuple[str, float], ...] = ()
     grid: int = 0
     shared: str = ""
 
 
-def deviation(residuals: Array, constants: int) -> float:
-    """Return the standard deviation of residuals after a fit of a number of constants."""
-    return float(np.sqrt(np.sum(residuals**2) / max(residuals.size - constants, 1)))
+def rated(
+    data: Observed, model: str, material: Any, constants: int, *, chosen: int = 0, **more: Any
+) -> Fitted:
+    """Return a fitted solid with its scatter and criterion.
+
+    `chosen` counts constants of the criterion only, `more` are other fields of the fit.
+    """
+    residuals = data.weighed(data.residuals(material))
+    return Fitted(
+        model=model,
+        material=material,
+        scatter=float(np.sqrt(np.sum(residuals**2) / max(residuals.size - constants, 1))),
+        constants=constants,
+        criterion=information_criterion(residuals, constants + chosen),
+        **more,
+    )
 
 
 def information_criterion(residuals: Array, constants: int, *, floor: float = 0.0) -> float:
@@ -139,8 +155,6 @@ class FitReport(Fitted):
 
     Attributes
     ----------
-    model : str
-        "power-law", "relaxation-power-law", "sls" or "prony".
     observed : Observed
         Fitted numbers.
     level : float
@@ -151,7 +165,6 @@ class FitReport(Fitted):
         Sentences on the quality of the fit.
     """
 
-    model: str
     observed: Observed
     level: float
     undetermined: tuple[str, ...]
