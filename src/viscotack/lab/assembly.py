@@ -95,8 +95,7 @@ def _part(columns: MaterialColumns) -> FrequencySweeps:
         columns.options = replace(columns.options, kind="G")
         columns.notes.append(f'"{columns.name(form[0])}" is taken as a viscosity in shear')
     frequency = () if "angular_frequency" in columns else ("frequency",)
-    refuse_what_is_lacking(columns, form, "temperature", *frequency, *form)
-    kind = kind_of(columns, *form)
+    kind = kind_of(columns, form, "temperature", *frequency)
     omega = columns.angular_frequency()
     values: dict[str, Any] = {
         "temperature": temperatures(columns),
@@ -162,18 +161,22 @@ def _tangent(columns: MaterialColumns) -> Array:
     return np.tan(angle)
 
 
-def refuse_what_is_lacking(
-    columns: MaterialColumns, moduli: Sequence[str], *quantities: str
-) -> None:
-    """Raise one error that lists everything missing in both file and caller's options."""
-    lacking = columns.lacking(*quantities)
-    columns.refuse_contradiction(*quantities)
-    if columns.kind(*moduli) is None and columns.options.kind is None:
-        lacking.append(
-            f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
-        )
+def kind_of(columns: MaterialColumns, moduli: Sequence[str], *beside: str) -> str:
+    """Return the kind of modulus ("E" or "G") stated by the file or the caller.
+
+    One error lists everything about these columns that is missing in both.
+    """
+    lacking = columns.lacking(*beside, *moduli)
+    columns.refuse_contradiction(*beside, *moduli)
+    said, given = columns.kind(*moduli), columns.options.kind
+    if said is None and given is None:
+        name = next(columns.name(quantity) for quantity in moduli if quantity in columns)
+        lacking.append(f'whether "{name}" is tensile or shear (--kind E or --kind G)')
     if lacking:
         raise columns.error(f"the file does not state {'; nor '.join(lacking)}")
+    if said is not None and given is not None and said != given:
+        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given}")
+    return said or given or ""
 
 
 def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict[str, Array]:
@@ -183,14 +186,6 @@ def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict
     if first.size < len(rows):
         columns.notes.append(f"{len(rows) - first.size} repeated rows removed")
     return {name: column[np.sort(first)] for name, column in values.items()}
-
-
-def kind_of(columns: MaterialColumns, *quantities: str) -> str:
-    """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
-    said, given = columns.kind(*quantities), columns.options.kind
-    if said is not None and given is not None and said != given:
-        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given}")
-    return said or given or ""
 
 
 def temperatures(columns: MaterialColumns) -> Array:
@@ -370,9 +365,7 @@ def _rows(
     # prefer the time since the step to the time of the whole test
     timed = "step_time" if "step_time" in columns else "time"
     needed = (wanted,) if wanted in columns else (over, under)
-    refuse_what_is_lacking(
-        columns, [name for name in needed if name in columns], timed, "temperature", *needed
-    )
+    kind = kind_of(columns, needed, timed, "temperature")
     time = columns.si(timed) - given.step_start
     if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
         raise columns.error(
@@ -381,7 +374,6 @@ def _rows(
         )
     if not given.step_start and timed == "time":
         _refuse_late_start(columns, time)
-    kind = kind_of(columns, *needed)
     if wanted in columns:
         values = columns.si(wanted)
     else:
