@@ -2,8 +2,8 @@
 
 import math
 import re
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from functools import cached_property
 from typing import Any, SupportsIndex
 
@@ -261,10 +261,8 @@ class Columns:
                 flag = _FLAGS.get(target)
                 cure = f"; set {flag} or write the unit" if flag else ""
                 raise self.error(f'the column "{self.name(quantity)}" has no unit{cure}')
-        try:
+        with self._located(quantity):
             return scale(unit, target)
-        except ValueError as error:
-            raise self.located(quantity, error) from None
 
     def has_unit(self, quantity: str) -> bool:
         """Return whether the file states the unit of a column."""
@@ -293,12 +291,13 @@ class Columns:
                         f"{_FLAGS[target].split()[0]} is {unit}"
                     )
 
-    def located(self, quantity: str, error: ValueError) -> ValueError:
-        """Return an error with the place of a column, unless it has it."""
-        text = str(error)
-        if text.startswith(self.file.path):
-            return error
-        return self.error(f'column "{self.name(quantity)}": {text}')
+    @contextmanager
+    def _located(self, quantity: str) -> Iterator[None]:
+        """Name the column in an error about its unit."""
+        try:
+            yield
+        except ValueError as error:
+            raise self.error(f'column "{self.name(quantity)}": {error}') from None
 
     # ---- temperature ---------------------------------------------------------------------------
 
@@ -309,12 +308,10 @@ class Columns:
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
         unit = self._unit("temperature")
         unit = (self.options.temperature_unit or "") if no_unit(unit) else unit
-        try:
+        with self._located("temperature"):
             if no_unit(unit):
                 raise InputError(f"no unit; set {_FLAGS['K']}")
             factor, offset = kelvin(unit)
-        except ValueError as error:
-            raise self.located("temperature", error) from None
         # where every row has a gap, the temperature is unknown, and no row is lost
         known = not np.all(np.isnan(self.numbers("temperature", needed=False)))
         kelvins = self.numbers("temperature", needed=known) * factor + offset
@@ -485,7 +482,7 @@ class MaterialColumns(Columns):
         if no_unit(unit) and said is None and angular:
             self.notes.append(f'"{self.name(name)}" has no unit; rad/s assumed')
             return self.numbers(name)
-        try:
+        with self._located(name):
             factor = radians_per_second(said or unit, angular="rad" in said if said else angular)
             if said and not no_unit(unit):
                 own = factor
@@ -493,8 +490,6 @@ class MaterialColumns(Columns):
                     own = radians_per_second(unit, angular=angular)
                 if not math.isclose(own, factor):
                     raise InputError(f"the unit is {bare(unit)}, but --frequency-unit is {said}")
-        except ValueError as error:
-            raise self.located(name, error) from None
         return self.numbers(name) * factor
 
 
