@@ -27,7 +27,6 @@ import logging
 import re
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import import_module
 from itertools import groupby, zip_longest
 from pathlib import PurePath
@@ -52,6 +51,7 @@ _FLOATS = {"float": ">f4", "float-data": ">f4", "double": ">f8", "double-data": 
 # height of the cantilever's carrier; measured is preferred to commanded
 HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
 _SEGMENT = re.compile(r"segments/(\d{1,4})/segment-header\.properties")
+_FORCE = "conversion-set.conversion.force."
 _Words = dict[str, str]
 
 
@@ -81,11 +81,14 @@ def jpk(file: LabFile, *_: object) -> list[Curve] | None:
         used = used or next((channel for channel in HEIGHTS if channel in present), "")
         if not used:
             raise file.error(f"no channel of height; the channels are {', '.join(present)}")
+        words = {name: _channel(name, own, shared) for name in ("vDeflection", used)}
         force, height = (
-            _Channel(file, name, own, shared).numbers(files[f"{folder}channels/{name}.dat"], unit)
-            for name, unit in (("vDeflection", "N"), (used, "m"))
+            _calibrated(file, name, words[name], files[f"{folder}channels/{name}.dat"])
+            for name in words
         )
-        stiffness = _Channel(file, "vDeflection", own, shared).stiffness
+        stiffness = 0.0  # unknown
+        if words["vDeflection"].get(f"{_FORCE}base-calibration-slot") == "distance":
+            stiffness = abs(float(words["vDeflection"][f"{_FORCE}scaling.multiplier"]))
         duration = float(own["force-segment-header.duration"])
         parts.append((duration * np.arange(1, points + 1) / points, force, height))
     if not parts:
@@ -94,63 +97,44 @@ def jpk(file: LabFile, *_: object) -> list[Curve] | None:
     return [Curve(*in_sequence(parts), -1, stiffness, (f"height from the channel {used}",))]
 
 
-@dataclass(frozen=True)
-class _Channel:
-    """One channel of a segment, with the segment's own and the shared header."""
+def _channel(name: str, own: _Words, shared: _Words) -> _Words:
+    """Return the header of a channel, from that of its segment or the shared one."""
+    slot = own.get(f"channel.{name}.lcd-info.*")
+    before = f"channel.{name}." if slot is None else f"lcd-info.{slot}."
+    words = own if slot is None else shared
+    found = {k.removeprefix(before): v for k, v in words.items() if k.startswith(before)}
+    # older headers store the encoder below "data"
+    older = {k.removeprefix("data."): v for k, v in found.items() if k.startswith("data.enc")}
+    return found | older
 
-    file: LabFile
-    name: str
-    own: _Words
-    shared: _Words
 
-    @property
-    def header(self) -> _Words:
-        """Header entries of the channel, without their prefixes."""
-        slot = self.own.get(f"channel.{self.name}.lcd-info.*")
-        before = f"channel.{self.name}." if slot is None else f"lcd-info.{slot}."
-        words = self.own if slot is None else self.shared
-        found = {k.removeprefix(before): v for k, v in words.items() if k.startswith(before)}
-        # older headers store the encoder below "data"
-        older = {k.removeprefix("data."): v for k, v in found.items() if k.startswith("data.enc")}
-        return found | older
-
-    @property
-    def stiffness(self) -> float:
-        """Stiffness of the cantilever [N/m], 0 if unknown."""
-        key = "conversion-set.conversion.force."
-        if self.header.get(f"{key}base-calibration-slot") != "distance":
-            return 0.0
-        return abs(float(self.header[f"{key}scaling.multiplier"]))
-
-    def numbers(self, content: bytes, unit: str) -> Array:
-        """Return the numbers in metres or newtons."""
-        words = self.header
-        kind = words.get("encoder.type", "")
-        dtype = _INTEGERS.get(kind) or _FLOATS[words.get("type", words.get("data.type", ""))]
-        slot = "force" if unit == "N" else words.get("conversion-set.conversions.default", "")
-        base = words.get("conversion-set.conversions.base", "")
-        steps: list[str] = []
-        while slot != base:
-            key = f"conversion-set.conversion.{slot}."
-            if words.get(f"{key}defined") != "true" or key in steps:
-                raise self.file.error(
-                    f"{self.name} is not calibrated in {unit}; calibrate the cantilever and save "
-                    "it again"
-                )
-            steps.insert(0, key)
-            slot = words.get(f"{key}base-calibration-slot", "")
-        if kind in _INTEGERS:
-            steps.insert(0, "encoder.")
-        said = words.get(f"{steps[-1] if steps else 'encoder.'}scaling.unit.unit", "")
-        if said != unit:
-            raise self.file.error(f"{self.name} is in {said[:20]!r}; expected {unit}")
-        values = np.frombuffer(content, dtype=dtype).astype(float)
-        for key in steps:
-            if words.get(f"{key}scaling.style", "offsetmultiplier") != "offsetmultiplier":
-                raise self.file.error(f"{key}scaling.style must be offsetmultiplier")
-            multiplier = float(words[f"{key}scaling.multiplier"])
-            values = float(words[f"{key}scaling.offset"]) + multiplier * values
-        return values
+def _calibrated(file: LabFile, name: str, words: _Words, content: bytes) -> Array:
+    """Return the deflections in newtons, or the heights in metres, of a channel."""
+    kind, unit = words.get("encoder.type", ""), "N" if name == "vDeflection" else "m"
+    dtype = _INTEGERS.get(kind) or _FLOATS[words.get("type", words.get("data.type", ""))]
+    slot = "force" if unit == "N" else words.get("conversion-set.conversions.default", "")
+    base = words.get("conversion-set.conversions.base", "")
+    steps: list[str] = []
+    while slot != base:
+        key = f"conversion-set.conversion.{slot}."
+        if words.get(f"{key}defined") != "true" or key in steps:
+            raise file.error(
+                f"{name} is not calibrated in {unit}; calibrate the cantilever and save it again"
+            )
+        steps.insert(0, key)
+        slot = words.get(f"{key}base-calibration-slot", "")
+    if kind in _INTEGERS:
+        steps.insert(0, "encoder.")
+    said = words.get(f"{steps[-1] if steps else 'encoder.'}scaling.unit.unit", "")
+    if said != unit:
+        raise file.error(f"{name} is in {said[:20]!r}; expected {unit}")
+    values = np.frombuffer(content, dtype=dtype).astype(float)
+    for key in steps:
+        if words.get(f"{key}scaling.style", "offsetmultiplier") != "offsetmultiplier":
+            raise file.error(f"{key}scaling.style must be offsetmultiplier")
+        multiplier = float(words[f"{key}scaling.multiplier"])
+        values = float(words[f"{key}scaling.offset"]) + multiplier * values
+    return values
 
 
 def _properties(content: bytes) -> _Words:
