@@ -65,14 +65,44 @@ class Source:
         return replace(self, notes=(*self.notes, *notes))
 
 
-class _Moduli:
-    """What sweeps and master curves have in common: storage and loss modulus."""
+class _Measured:
+    """What all measurements have in common: a modulus, or its inverse, in tension or in shear."""
 
-    storage: Array
-    loss: Array
+    measured: ClassVar[tuple[str, ...]]  # names of the numbers
+    power: ClassVar[int] = 1  # of the modulus that they are
+    kind: str
+    source: Source
 
     def __len__(self) -> int:
-        return self.storage.size
+        return getattr(self, self.measured[0]).size
+
+    def in_tension(self, poisson_ratio: float) -> Self:
+        """Convert shear to tension by E = 2 (1 + nu) G; a tensile modulus is unchanged.
+
+        Parameters
+        ----------
+        poisson_ratio : float
+            nu, in [0, 0.5], the same at every frequency. A note records it.
+        """
+        nu = checked_poisson_ratio(poisson_ratio)
+        if self.kind == "E":
+            return self
+        factor = (2 * (1 + nu)) ** self.power
+        this: Any = self
+        return replace(
+            this,
+            kind="E",
+            source=self.source.noted(f"shear converted to tension with Poisson ratio {nu:g}"),
+            **{name: factor * getattr(self, name) for name in self.measured},
+        )
+
+
+class _Moduli(_Measured):
+    """What sweeps and master curves have in common: storage and loss modulus."""
+
+    measured: ClassVar = ("storage", "loss")
+    storage: Array
+    loss: Array
 
     @property
     def complex_modulus(self) -> Complex:
@@ -88,16 +118,6 @@ class _Moduli:
         }
         this: Any = self
         return replace(this, **columns)
-
-    def in_tension(self, poisson_ratio: float) -> Self:
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
-
-        Parameters
-        ----------
-        poisson_ratio : float
-            nu, in [0, 0.5], the same at every frequency.
-        """
-        return in_tension(self, poisson_ratio, "storage", "loss")
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,27 +227,16 @@ class MasterCurve(_Moduli):
         sort_along(self, self.angular_frequency)
 
 
-class _StepTest:
+class _StepTest(_Measured):
     """What relaxation and creep tests have in common: a number over the time since the step."""
 
-    # name of the number, and the power of the modulus that it is
-    measured: ClassVar[tuple[str, int]]
     time: Array
-    kind: str
 
     def __post_init__(self):
         check_kind(self.kind)
         store_temperature(self, "temperature")
-        store_columns(self, "time", self.measured[0])
+        store_columns(self, "time", *self.measured)
         sort_along(self, self.time)
-
-    def __len__(self) -> int:
-        return self.time.size
-
-    def in_tension(self, poisson_ratio: float) -> Self:
-        """Convert a shear to a tensile modulus, 2 (1 + nu) G, or compliance, J/(2 (1 + nu))."""
-        name, power = self.measured
-        return in_tension(self, poisson_ratio, name, power=power)
 
 
 @dataclass(frozen=True, eq=False)
@@ -255,7 +264,7 @@ class RelaxationTest(_StepTest):
     [6000000.0, 3000000.0]
     """
 
-    measured: ClassVar = ("modulus", 1)
+    measured: ClassVar = ("modulus",)
 
     time: Array
     modulus: Array
@@ -290,7 +299,8 @@ class CreepTest(_StepTest):
     [1e-06, 2e-06]
     """
 
-    measured: ClassVar = ("compliance", -1)
+    measured: ClassVar = ("compliance",)
+    power: ClassVar = -1
 
     time: Array
     compliance: Array
@@ -371,20 +381,6 @@ def sort_along(instance: Any, along: Array) -> None:
     for name, values in vars(instance).items():
         if isinstance(values, np.ndarray):
             store(instance, name, values[order])
-
-
-def in_tension(instance: Any, poisson_ratio: float, *names: str, power: int = 1) -> Any:
-    """Convert shear to tensile moduli; a note records the Poisson ratio used."""
-    nu = checked_poisson_ratio(poisson_ratio)
-    if instance.kind == "E":
-        return instance
-    factor = (2 * (1 + nu)) ** power
-    return replace(
-        instance,
-        kind="E",
-        source=instance.source.noted(f"shear converted to tension with Poisson ratio {nu:g}"),
-        **{name: factor * getattr(instance, name) for name in names},
-    )
 
 
 # K least difference between two sweeps; chambers hold the temperature within a few tenths

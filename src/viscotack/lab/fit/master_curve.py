@@ -297,8 +297,8 @@ def superposed(
     (40, [0.0, -1.0])
     """
     ordered = _ordered(tests)
-    first, column = ordered[0], ordered[0].measured[0]
-    sign = first.measured[1]  # a compliance is the inverse of a modulus
+    first, (column,) = ordered[0], ordered[0].measured
+    sign = first.power  # a compliance is the inverse of a modulus
     temperature = np.array([test.temperature for test in ordered], dtype=float)
     if shift is None:
         curves = [
