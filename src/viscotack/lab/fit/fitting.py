@@ -41,17 +41,10 @@ _FLOWING = 0.8
 
 def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
     """Return sentences on undetermined constants and on the ends of the measured range."""
-    if scatter_of(data, material) > _MISSED:
-        return (_ends(data),)
-    return (*_constants(data, material, intervals), _ends(data))
-
-
-def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
-    """Return sentences on single undetermined constants."""
     words = []
-    for each in intervals:
-        if each.known:
-            continue
+    # constants of a model that has failed mean nothing
+    failed = scatter_of(data, material) > _MISSED
+    for each in () if failed else [each for each in intervals if not each.known]:
         if each.name in NAMES:
             if each.told or each.name in open_ends(data, material):
                 words += _plateau(data, material, each)
@@ -59,6 +52,11 @@ def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -
             words.append(f"{each.name}: the data give no bound on one or both sides")
         elif each.high > 3 * each.low:
             words.append(f"{each.name} is known only to a factor of {each.high / each.low:.2g}")
+    slow, fast = data.frequencies
+    words.append(
+        f"the measurement covers {1 / fast:.2g} s to {1 / slow:.2g} s; faster or slower "
+        "response is an extrapolation"
+    )
     return tuple(words)
 
 
@@ -119,14 +117,6 @@ def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
     return (
         f"the error of {few} arms is {100 * own:.2g} % and at most {100 * worst:.2g} %; the best "
         f"number, {many}, has {100 * best:.2g} %",
-    )
-
-
-def _ends(data: Observed) -> str:
-    slow, fast = data.frequencies
-    return (
-        f"the measurement covers {1 / fast:.2g} s to {1 / slow:.2g} s; faster or slower "
-        "response is an extrapolation"
     )
 
 
