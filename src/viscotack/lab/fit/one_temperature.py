@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.sweeps import (
     GAP,
@@ -49,57 +51,56 @@ def at_one_temperature(
         If a temperature that is left out was not measured, or nothing else was; as
         :func:`.master_curve` and :func:`.superposed`.
     """
-    several: Any = (measured,) if isinstance(measured, RelaxationTest | CreepTest) else measured
-    for kelvin in leave_out:
-        if isinstance(several, FrequencySweeps):
-            several = several.chosen(
-                _others(several.temperature, kelvin, several.source.path.split(", "))
-            )
-        else:
-            known = np.array([t.temperature for t in several], dtype=float)
-            keep = _others(known, kelvin, [t.source.path for t in several])
-            several = tuple(t for t, kept in zip(several, keep, strict=True) if kept)
-    if isinstance(several, FrequencySweeps):
+    if isinstance(measured, FrequencySweeps):
+        paths = measured.source.path.split(", ")
+        sweeps = measured.chosen(_kept(measured.temperature, leave_out, paths))
         curve = master_curve(
-            several,
+            sweeps,
             reference_temperature=reference_temperature,
             shift=shift,
             by=by,
             vertical=vertical,
         )
-        cautions = [contradiction(curve)]
-        if curve.shifts is not None:
-            cautions += superposition(several, curve.shifts)
-        table, doubts = curve.shifts, tuple(words for words in cautions if words)
-    elif reference_temperature is None:
-        if len(several) > 1 or vertical is not None:
+        table, doubts = curve.shifts, [contradiction(curve)]
+        if table is not None:
+            doubts += superposition(sweeps, table)
+    else:
+        tests: Any = (measured,) if isinstance(measured, RelaxationTest | CreepTest) else measured
+        known = np.array([test.temperature for test in tests], dtype=float)
+        keep = _kept(known, leave_out, [test.source.path for test in tests])
+        tests = [test for test, kept in zip(tests, keep, strict=True) if kept]
+        table, doubts = None, []
+        if reference_temperature is not None:
+            vertical = "none" if vertical is None else vertical
+            how: Any = {"reference_temperature": reference_temperature, "vertical": vertical}
+            curve, table = superposed(tests, shift=shift, **how)
+        elif len(tests) > 1 or vertical is not None:
             raise InputError(
                 "needed, the temperature of the result, for tests at several temperatures",
                 field="reference_temperature",
             )
-        curve, table, doubts = several[0], None, ()
-    else:
-        vertical = "none" if vertical is None else vertical
-        how: Any = {"reference_temperature": reference_temperature, "vertical": vertical}
-        curve, table = superposed(several, shift=shift, **how)
-        doubts = ()
-    return curve, shift if isinstance(shift, WLF) else table, doubts
+        else:
+            curve = tests[0]
+    return curve, shift if isinstance(shift, WLF) else table, tuple(filter(None, doubts))
 
 
-def _others(temperature: Any, asked: float, paths: Sequence[str]) -> Any:
-    """Return which points are not of the sweep at a temperature [K]."""
-    near = np.abs(temperature - asked) <= GAP
+def _kept(
+    temperature: Array, leave_out: Sequence[float], paths: Sequence[str]
+) -> npt.NDArray[np.bool_]:
+    """Return which points are not of the sweeps at the temperatures [K] that are left out."""
+    keep = np.ones(temperature.size, dtype=bool)
     paths = list(dict.fromkeys(paths))
     file = ", ".join(paths) if len(paths) < 4 else f"{paths[0]} and {len(paths) - 1} more"
-    if not near.any():
-        known = np.unique(np.round(temperature[np.isfinite(temperature)] - 273.15))
-        there = ", ".join(f"{T:g} C" for T in known) or "temperatures that it does not say"
-        raise InputError(
-            f"leave_out: {file}: no test within 1 K of {asked - 273.15:.4g} C; there are some at "
-            f"{there}",
-            field="leave_out",
-        )
-    if near.all():
-        words = f"leave_out: without {asked - 273.15:.4g} C nothing is left of {file}"
-        raise InputError(words, field="leave_out")
-    return ~near
+    for asked in leave_out:
+        near = keep & (np.abs(temperature - asked) <= GAP)
+        words = f"without {asked - 273.15:.4g} C nothing is left of {file}"
+        if not near.any():
+            known = np.unique(np.round(temperature[keep & np.isfinite(temperature)] - 273.15))
+            there = ", ".join(f"{T:g} C" for T in known) or "temperatures that it does not say"
+            words = (
+                f"{file}: no test within 1 K of {asked - 273.15:.4g} C; there are some at {there}"
+            )
+        keep &= ~near
+        if not (near.any() and keep.any()):
+            raise InputError(f"leave_out: {words}", field="leave_out")
+    return keep
