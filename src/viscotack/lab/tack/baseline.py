@@ -31,7 +31,7 @@ force falls until the jump, it continues to fall up to the next point.
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -215,12 +215,11 @@ def _evidence(X: Array, y: Array, widths: Array) -> tuple[Any, ...]:
     return -logs - (_SURE + y.size / 2) * np.log(squares), L, v, squares / (_SURE + y.size / 2)
 
 
-@dataclass(frozen=True)
-class _Part:
+class _Part(NamedTuple):
     """Averages over blocks of points, from the outer end inwards."""
 
     first: Indices  # indices of the first points of the blocks
-    count: Array
+    points: Array
     force: Array
     depth: Array
     time: Array
@@ -247,11 +246,20 @@ def _part(force: Array, depth: Array, time: Array, noise: float, share: float) -
     stop = min(int(np.argmax(beyond)) + _BEYOND, force.size) if beyond.any() else force.size
     # single points at the inner end, where a jump may be
     outer = max(stop - _SINGLE, 0)
-    blocks = np.linspace(0, outer, min(outer, 2 * _BLOCKS), endpoint=False)
-    first = np.concatenate([np.unique(blocks.round().astype(int)), np.arange(outer, stop)])
-    count = np.diff(first, append=stop)
-    rows = [row[:stop] for row in ((force - level) / noise, depth, time)]
-    return _Part(first, count, *(np.add.reduceat(row, first) / count for row in rows))
+    first = np.concatenate([_cuts(outer, 2 * _BLOCKS), np.arange(outer, stop)])
+    return _averaged(first, (force[:stop] - level) / noise, depth[:stop], time[:stop])
+
+
+def _cuts(size: int, most: int) -> Indices:
+    """Return the first points of blocks of equal numbers of points."""
+    return np.unique(np.linspace(0, size, min(most, size), endpoint=False).round().astype(int))
+
+
+def _averaged(first: Indices, force: Array, depth: Array, time: Array) -> _Part:
+    points = np.diff(first, append=force.size)
+    return _Part(
+        first, points, *(np.add.reduceat(row, first) / points for row in (force, depth, time))
+    )
 
 
 def _contact_evidence(part: _Part, begins: Indices, widths: Array) -> tuple[Array, Array]:
@@ -263,7 +271,7 @@ def _contact_evidence(part: _Part, begins: Indices, widths: Array) -> tuple[Arra
     powers = np.stack([np.where(inside, u**p, 0.0) for p in _POWERS], axis=-1)
     base = _terms(part.time, (z - z[0]) / max(float(np.ptp(z)), 1e-300), _FEW_SINES)
     X = np.concatenate([np.broadcast_to(base, (begins.size, *base.shape)), powers], axis=-1)
-    weight = np.sqrt(part.count)
+    weight = np.sqrt(part.points)
     logs, _, _, variance = _evidence(X * weight[:, None], part.force * weight, widths)
     return logs, variance
 
@@ -361,10 +369,11 @@ def baseline(force: Array, depth: Array, time: Array, free: list[slice], noise: 
     """Fit the baseline to the free parts of a test."""
     origin = float(time[0]), max(float(np.ptp(time)), 1e-300)
     place = float(depth[free[-1]][0]), max(float(np.ptp(depth)), 1e-300)
-    blocks = [_blocks(force[p], depth[p], time[p]) for p in free]
-    F, z, t, count = (np.concatenate(column) for column in zip(*blocks, strict=True))
+    rows = [(force[p], depth[p], time[p]) for p in free]
+    blocks = [_averaged(_cuts(row[0].size, _BLOCKS), *row) for row in rows]
+    _, points, F, z, t = (np.concatenate(column) for column in zip(*blocks, strict=True))
     level = float(np.median(F))
-    weight = np.sqrt(count)
+    weight = np.sqrt(points)
     X = _terms((t - origin[0]) / origin[1], (z - place[0]) / place[1], _SINES)
     size = float(np.ptp(force)) / noise
     slopes = ((0.0, 0.0), (_SLOPES, 0.0), (0.0, _SLOPES), (_SLOPES, _SLOPES))
@@ -392,13 +401,13 @@ def baseline(force: Array, depth: Array, time: Array, free: list[slice], noise: 
     mean, covariance = noise * mean, noise**2 * covariance
     mean[0] += level
     law = Baseline(mean, covariance, 0.0, origin, place)
-    rest = np.concatenate([force[p] - law.at(depth[p], time[p]) for p in free])
-    return Baseline(mean, covariance, float(np.std(rest)), origin, place)
+    rest = np.concatenate([force - law.at(depth, time) for force, depth, time in rows])
+    return replace(law, noise=float(np.std(rest)))
 
 
-def _attraction(blocks: list[list[Array]]) -> Array:
+def _attraction(blocks: list[_Part]) -> Array:
     """Return a term for each free part (last axis) by length (first axis), 0 for the first."""
-    depths = [depth for _, depth, *_ in blocks]
+    depths = [block.depth for block in blocks]
     span = max(float(np.ptp(depth)) for depth in depths)
     lengths = np.array(_LENGTHS)[:, None] * max(span, 1e-300)
     found = np.zeros((1 + len(_LENGTHS), sum(map(len, depths)), len(depths)))
@@ -407,14 +416,6 @@ def _attraction(blocks: list[list[Array]]) -> Array:
         rows = slice(begin, begin := begin + len(depth))
         found[1:, rows, part] = -((1 + (depth.max() - depth) / lengths) ** -2)
     return found
-
-
-def _blocks(force: Array, depth: Array, time: Array) -> list[Array]:
-    """Average over blocks of equal numbers of points; the last column is that number."""
-    cuts = np.unique(np.linspace(0, force.size, min(_BLOCKS, force.size), endpoint=False).round())
-    cuts = cuts.astype(int)
-    count = np.diff(cuts, append=force.size)
-    return [*(np.add.reduceat(row, cuts) / count for row in (force, depth, time)), count * 1.0]
 
 
 _REACH = (0, 1, 2, 3, 4, 6, 8, 11, 16, 22, 30, 42, 60)  # points on either side
@@ -426,8 +427,7 @@ _JUMP = (10.0, 0.1)  # smallest step of a jump, relative to the noise and to the
 _HIGHEST = 6  # degree of the polynomials that test a parabola
 
 
-@dataclass(frozen=True)
-class Extremum:
+class Extremum(NamedTuple):
     """Smallest force [N] and its place (an index, not a whole number), with uncertainties."""
 
     value: float
@@ -465,13 +465,7 @@ def extremum(force: Array, at: int, noise: float) -> Extremum:
     least = min((one.uncertainty for one in valid), default=np.inf)
     if least >= point.uncertainty:
         return point
-    rows = np.array(
-        [
-            (one.value, one.uncertainty, one.at, one.at_uncertainty)
-            for one in valid
-            if one.uncertainty <= _WORSE * least
-        ]
-    )
+    rows = np.array([one for one in valid if one.uncertainty <= _WORSE * least])
     weights = rows[:, 1] ** -2 / np.sum(rows[:, 1] ** -2)
     mean = weights @ rows
     spread = np.sqrt(weights @ (rows - mean) ** 2)
