@@ -135,7 +135,7 @@ def master_curve(
         by, vertical = by or "both", "none" if vertical is None else vertical
         shift = shift_factors(sweeps, reference_temperature=reference, by=by, vertical=vertical)
         how = f"shifts from the overlap of {_PARTS[by]}, {_moving(vertical)}"
-    levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
+    levels, _ = temperature_levels(sweeps)
     horizontal, up, table = shifted_by(shift, temperature, levels, reference)
     curve = _moved(sweeps, reference, 10**horizontal, 10**up, table)
     return replace(curve, source=curve.source.noted(f"{how}, reference {reference:.2f} K"))

@@ -99,10 +99,10 @@ def shift_factors(
     >>> [round(value, 2) for value in shifts.values]
     [0.0, -1.0]
     """
-    each = temperature_levels(sweeps)
-    temperature = np.array([float(np.mean(level.temperature)) for level in each])
+    temperature, each = temperature_levels(sweeps)
+    curves = level_curves(temperature, each)
     more = by, vertical, temperature_uncertainty
-    return shifts_between(temperature, level_curves(each), reference_temperature, *more)
+    return shifts_between(temperature, curves, reference_temperature, *more)
 
 
 def shifts_between(
@@ -204,23 +204,22 @@ def _summed(
     return shift, up, np.where(deviation < 1e-6, 0.0, deviation)
 
 
-def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
-    """Return the points of each temperature, from cold to hot."""
+def temperature_levels(sweeps: FrequencySweeps) -> tuple[Array, list[FrequencySweeps]]:
+    """Return each temperature [K] and its points, from cold to hot."""
     if np.any(np.isnan(sweeps.temperature)):
         raise InputError("the temperature of some points is unknown; set --temperature")
-    return [sweeps.chosen(points) for points in levels(sweeps.temperature)]
+    each = [sweeps.chosen(points) for points in levels(sweeps.temperature)]
+    return np.array([float(np.mean(level.temperature)) for level in each]), each
 
 
-def level_curves(levels: Sequence[FrequencySweeps]) -> list[Curve]:
+def level_curves(temperature: Array, levels: Sequence[FrequencySweeps]) -> list[Curve]:
     """Return the points of each temperature as a curve in decades: storage and loss."""
-    rows = ((level, np.argsort(level.angular_frequency, kind="stable")) for level in levels)
-    return [
-        curve(
-            float(np.mean(level.temperature)),
-            *(np.log10(x[i]) for x in (level.angular_frequency, level.storage, level.loss)),
-        )
-        for level, i in rows
-    ]
+    curves = []
+    for T, level in zip(temperature, levels, strict=True):
+        order = np.argsort(level.angular_frequency, kind="stable")
+        columns = (level.angular_frequency, level.storage, level.loss)
+        curves.append(curve(T, *(np.log10(column[order]) for column in columns)))
+    return curves
 
 
 def curve(temperature: float, x: Array, *y: Array) -> Curve:

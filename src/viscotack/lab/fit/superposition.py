@@ -58,11 +58,10 @@ def superposition(sweeps: FrequencySweeps, shifts: TabulatedShift) -> tuple[str,
     >>> superposition(sweeps, TabulatedShift(293.15, (293.15, 303.15), (0.0, -1.0)))
     ()
     """
-    levels = temperature_levels(sweeps)
-    temperature = np.array([float(np.mean(level.temperature)) for level in levels])
+    temperature, levels = temperature_levels(sweeps)
     along, up, _ = shifted_by(shifts, temperature, temperature, shifts.temperature[0])
     shapely = [i for i, level in enumerate(levels) if len(level) >= FEWEST]
-    curves = level_curves([levels[i] for i in shapely])
+    curves = level_curves(temperature[shapely], [levels[i] for i in shapely])
     pairs = list(pairwise(shapely))
     between = [
         f"those at {temperature[i] - 273.15:.4g} and {temperature[j] - 273.15:.4g} C"
