@@ -149,16 +149,11 @@ class Errors:
         # a normal distribution of uncertain deviation gives Student's t
         return found * np.sqrt(self.degrees / random.chisquare(self.degrees, size=(count, 1)))
 
-    @property
-    def shared(self) -> float:
-        """Posterior probability of correlated errors."""
-        return float(np.sum(self.weights[[form.shared for form in self.forms]]))
-
     def words(self) -> str:
         """Describe the correlation of the errors in words; empty for independent errors."""
-        if self.shared < 0.5:
-            return ""
         shared = np.array([form.shared for form in self.forms])
+        if np.sum(self.weights[shared]) < 0.5:
+            return ""
         likely = self.forms[int(np.argmax(np.where(shared, self.weights, 0)))]
         size = self.scales[self.forms.index(likely)]
         if likely.sweep:

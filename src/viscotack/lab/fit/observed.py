@@ -235,13 +235,15 @@ def thinned(data: Observed) -> Observed:
     if data.at.size <= _MOST:
         return data
     sweep = data.sweep if data.sweep is not None else np.zeros(data.at.size, dtype=np.int64)
+    order = np.lexsort((data.at, sweep))
+    decades, turned = np.log10(data.at[order]), np.diff(sweep[order]) != 0
     finest = _FINEST
     while True:
-        groups = _groups(data.at, sweep, finest)
+        fresh = (np.diff(np.floor(finest * decades)) != 0) | turned
+        groups = np.concatenate(([0], np.cumsum(fresh)))
         if groups[-1] < _MOST or finest <= 1:
             break
         finest = max(1, int(0.8 * finest))
-    order = np.lexsort((data.at, sweep))
     count = np.bincount(groups)
 
     def mean(values: Array) -> Array:
@@ -249,7 +251,7 @@ def thinned(data: Observed) -> Observed:
 
     at = mean(data.at)
     ascending = np.argsort(at, kind="stable")
-    first = sweep[order][np.concatenate(([0], np.flatnonzero(np.diff(groups)) + 1))]
+    first = sweep[order][np.concatenate(([True], fresh))]
     note = (
         f"{data.at.size} points were averaged to {at.size}, in {finest} intervals per decade, with "
         "equal weights"
@@ -262,11 +264,3 @@ def thinned(data: Observed) -> Observed:
         source=data.source.noted(note),
         points=data.at.size,
     )
-
-
-def _groups(at: Array, sweep: npt.NDArray[np.int64], finest: int) -> npt.NDArray[np.int64]:
-    """Return the interval of each point, in ascending order of sweep and place."""
-    order = np.lexsort((at, sweep))
-    piece = np.floor(finest * np.log10(at[order]))
-    fresh = (np.diff(piece) != 0) | (np.diff(sweep[order]) != 0)
-    return np.concatenate(([0], np.cumsum(fresh)))
