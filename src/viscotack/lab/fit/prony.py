@@ -141,14 +141,11 @@ class Plateau:
         if self._middle <= 0:
             return 0.0 if side < 0 else np.inf
         # first with the chi-square limit, then with the simulated one
-        guess = self._reached(side, float(norm.isf(tail)) ** 2 * self._size)
+        # mean square of the errors per direction that the weights can follow
+        size = float(np.mean(self._errors**2))
+        guess = self._reached(side, float(norm.isf(tail)) ** 2 * size)
         at = guess if 0 < guess < np.inf else self._middle
         return self._reached(side, self._allowed(at, side, tail))
-
-    @property
-    def _size(self) -> float:
-        """Mean square of the errors per direction that the weights can follow."""
-        return float(np.mean(self._errors**2))
 
     def _nearest(self, numbers: Array, value: float | None = None) -> tuple[float, Array]:
         """Return the smallest sum of squares, optionally at a fixed quantity, and its weights."""

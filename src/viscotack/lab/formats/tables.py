@@ -125,18 +125,13 @@ def tabulated(
 
 def holds(row: Sequence[str], numbers: Sequence[str]) -> bool:
     """Return whether a row has numbers alone, in all columns that the caller chose by number."""
-    return bool(numbers) and numeric(row) and are_columns(numbers, row)
+    filled = [cell for cell in row if cell.strip()]
+    return bool(numbers and filled) and all(map(is_number, filled)) and are_columns(numbers, row)
 
 
 def numbered(row: Sequence[str]) -> list[str]:
     """Return the numbers of columns, as headings of a table without any."""
     return [str(i) for i in range(1, len(row) + 1)]
-
-
-def numeric(row: Sequence[str]) -> bool:
-    """Return whether a row has numbers and nothing else but gaps."""
-    filled = [cell for cell in row if cell.strip()]
-    return bool(filled) and all(map(is_number, filled))
 
 
 def under(rows: Sequence[Row]) -> tuple[Sequence[str] | None, list[Row]]:
