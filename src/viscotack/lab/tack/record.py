@@ -193,22 +193,17 @@ def _turns(depth: Array) -> list[int]:
     high = low = 0
     rising = 0
     for i, value in enumerate(depth.tolist()):
-        if value > depth[high]:
-            high = i
-        if value < depth[low]:
-            low = i
-        if rising >= 0 and depth[high] - value > least:
-            if rising or depth[high] - depth[turns[0]] > least:
-                turns.append(high)
-            else:
-                turns[0] = high
-            rising, low, high = -1, i, i
-        elif rising <= 0 and value - depth[low] > least:
-            if rising or depth[turns[0]] - depth[low] > least:
-                turns.append(low)
-            else:
-                turns[0] = low
-            rising, low, high = 1, i, i
+        high = i if value > depth[high] else high
+        low = i if value < depth[low] else low
+        # a rise turns at its highest point, a fall at its lowest
+        for way, end in ((1, high), (-1, low)):
+            if rising != -way and way * (depth[end] - value) > least:
+                if rising or way * (depth[end] - depth[turns[0]]) > least:
+                    turns.append(end)
+                else:
+                    turns[0] = end
+                rising, low, high = -way, i, i
+                break
     last = high if rising > 0 else low
     if last != turns[-1]:
         turns.append(last)
