@@ -29,7 +29,7 @@ _BRACKET = re.compile(r"(.*\S)\s*\[([^\[\]]+)\]")
 # the option that states a unit; the one of a compliance is that of the stress
 _UNITS = {
     "Pa": "modulus_unit", "1/Pa": "modulus_unit", "s": "time_unit", "N": "force_unit",
-    "m": "length_unit",
+    "m": "length_unit", "K": "temperature_unit", "Hz": "frequency_unit",
 }  # fmt: skip
 
 

@@ -56,6 +56,7 @@ _FLAGS = {
     "1/Pa": "--modulus-unit Pa, kPa or MPa, of the stress",
     "s": "--time-unit s or min",
     "K": "--temperature-unit degC or K",
+    "Hz": "--frequency-unit Hz or rad/s",
     "N": "--force-unit N or mN",
     "m": "--length-unit mm or um",
 }
@@ -274,14 +275,9 @@ class Columns:
 
     def refuse_contradiction(self, *quantities: str) -> None:
         """Refuse a unit of the caller that no column needs and that the file contradicts."""
-        said = {target: self.options.unit(target) for target in ("Pa", "s", "N", "m")}
-        said["K"] = self.options.temperature_unit or ""
-        for target, unit in said.items():
-            targeted = [
-                name
-                for name in quantities
-                if name in self and target == UNITS.get(name, "K" if name == "temperature" else "1")
-            ]
+        for target in ("Pa", "s", "N", "m", "K"):
+            unit = self.options.unit(target)
+            targeted = [name for name in quantities if name in self and UNITS.get(name) == target]
             if not unit or any(no_unit(self._unit(name)) for name in targeted):
                 continue
             for name in targeted:
@@ -307,7 +303,7 @@ class Columns:
             stated = self.table.temperature if not self.table.label else self._labelled()
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
         unit = self._unit("temperature")
-        unit = (self.options.temperature_unit or "") if no_unit(unit) else unit
+        unit = self.options.unit("K") if no_unit(unit) else unit
         with self._located("temperature"):
             if no_unit(unit):
                 raise InputError(f"no unit; set {_FLAGS['K']}")
@@ -425,17 +421,10 @@ class MaterialColumns(Columns):
         """Return the missing units and labels of columns, each with the option that sets it."""
         found: dict[str, list[str]] = {}
         for quantity in quantities:
-            if quantity not in self or not no_unit(self._unit(quantity)):
-                continue
             target = UNITS.get(quantity, "1")
-            if quantity == "frequency":
-                flag = "" if self.options.frequency_unit else "--frequency-unit Hz or rad/s"
-            elif quantity == "temperature":
-                flag = "" if self.options.temperature_unit else _FLAGS["K"]
-            else:
-                told = target == "1" or self.options.unit(target)
-                flag = "" if told else _FLAGS.get(target, _IN_FILE)
-            if flag:
+            unknown = quantity in self and no_unit(self._unit(quantity))
+            if unknown and target != "1" and not self.options.unit(target):
+                flag = _FLAGS.get(target, _IN_FILE)
                 found.setdefault(flag, []).append(f'"{self.name(quantity)}"')
         lacking = [f"the unit of {' and '.join(names)} ({flag})" for flag, names in found.items()]
         label = _TEMPERATURE.fullmatch(self.table.label.replace(",", "."))
