@@ -200,6 +200,12 @@ def first_fitting(
     return None
 
 
+def entries(lines: Iterable[str], mark: str = "=") -> dict[str, str]:
+    """Return the entries of a header by key, from its lines ``key = value``."""
+    parts = (line.partition(mark) for line in lines)
+    return {key.strip(): value.strip() for key, found, value in parts if found}
+
+
 # ---- force curves of microscopes -----------------------------------------------------------------
 
 

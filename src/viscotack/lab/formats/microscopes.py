@@ -38,7 +38,7 @@ from viscotack.errors import install_command
 from viscotack.lab.options import TackOptions
 from viscotack.units import parse
 
-from .file import Curve, LabFile, in_sequence, unpacked
+from .file import Curve, LabFile, entries, in_sequence, unpacked
 
 _INTEGERS = {
     "signedshort": ">i2",
@@ -138,12 +138,7 @@ def _calibrated(file: LabFile, name: str, words: _Words, content: bytes) -> Arra
 
 
 def _properties(content: bytes) -> _Words:
-    pairs = (
-        line.partition("=")
-        for line in content.decode("latin-1").splitlines()
-        if not line.startswith("#") and "=" in line
-    )
-    return {key.strip(): value.strip() for key, _, value in pairs}
+    return entries(content.decode("latin-1").splitlines())
 
 
 _JPK_TEXT_LOOKED = 300  # lines searched for the first header
@@ -167,8 +162,7 @@ def jpk_text(file: LabFile, *_: object) -> list[Curve] | None:
     lines = filter(str.strip, file.lines)
     for above, group in groupby(lines, lambda text: text.startswith("#")):
         if above:
-            pairs = (text.lstrip("# ").partition(":") for text in group)
-            words |= {key.strip(): value.strip() for key, colon, value in pairs if colon}
+            words |= entries((text.lstrip("# ") for text in group), ":")
             continue
         columns = zip_longest(words["columns"].split(), words.get("units", "").split())
         numbers = np.loadtxt(list(group), ndmin=2).T
@@ -272,13 +266,9 @@ def nid(file: LabFile, *_: object) -> list[Curve] | None:
     if not end:
         raise file.error("the header has no end; the file is truncated or not a .nid file")
     sections: _Sections = {}
-    current: dict[str, str] = {}
-    for text in head.decode("latin-1").splitlines():
-        if text.startswith("[") and text.rstrip().endswith("]"):
-            current = sections.setdefault(text.strip()[1:-1], {})
-        elif "=" in text:
-            key, value = text.split("=", 1)
-            current[key.strip()] = value.strip()
+    for section in re.split(rb"^\[", head, flags=re.MULTILINE)[1:]:
+        title, lines = section.partition(b"]")[::2]
+        sections.setdefault(title.decode("latin-1"), {}).update(_properties(lines))
     channels = _channels(file, sections, content)
     planned = next(
         (x for key, x in sections.items() if key.endswith("Spec") and "Modulation time" in x), None

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 
-from .file import LabFile
+from .file import LabFile, entries
 from .headings import MATERIAL, bare, recognise
 from .numbers import doubtful_temperature, is_number, number
 from .tables import Table, tabulated
@@ -49,8 +49,7 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
         return None
     if ends in _OTHERS:
         raise file.error(f"a {ends} file of RepTate contains no linear viscoelastic test")
-    pairs = (part.partition("=") for part in first.split(";"))
-    parameters = {key.strip(): value.strip() for key, _, value in pairs}
+    parameters = entries(first.split(";"))
     rows = [
         (line, text.split())
         for line, text in enumerate(file.lines[1:], start=2)
