@@ -280,17 +280,68 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 }
 
 
+def _of_test(kind: type, file: LabFile, tables: Sequence[Table], given: Options) -> MaterialColumns:
+    """Return the columns of the single table with a test of a kind."""
+    wanted, over, under, test = _MEASURED[kind]
+    found = []
+    for table in tables:
+        columns = MaterialColumns(file, table, given)
+        timed = "time" in columns or "step_time" in columns
+        known = under in columns or under in table.levels
+        if table.rows and timed and (wanted in columns or (over in columns and known)):
+            found.append(columns)
+    if not found:
+        raise no_such_test(file, tables, given, test)
+    # of several steps, select the one with constant stress or strain
+    found = [columns for columns in found if test_of(columns) == test] or found
+    if len(found) > 1:
+        numbers = [str(columns.table.number) for columns in found]
+        raise file.error(
+            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one (--table)"
+        )
+    return found[0]
+
+
 def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Options) -> list[Test]:
     """Return the tests of a kind in a file, one per temperature.
 
     Rows with monotonic time are one test, whose temperature may drift.
     """
-    time, values, temperature, modulus, columns = _rows(file, tables, given, kind)
+    columns = _of_test(kind, file, tables, given)
+    wanted, over, under, test = _MEASURED[kind]
+    # prefer the time since the step to the time of the whole test
+    timed = "step_time" if "step_time" in columns else "time"
+    needed = (wanted,) if wanted in columns else (over, under)
+    modulus = kind_of(columns, needed, timed, "temperature")
+    time = columns.si(timed) - given.step_start
+    if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
+        raise columns.error(
+            f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s, a time of day; set '
+            "--step-start"
+        )
+    if not given.step_start and timed == "time":
+        _refuse_late_start(columns, time)
+    if wanted in columns:
+        values = columns.si(wanted)
+    else:
+        values = _ratio(columns, over, under)
+        columns.notes.append(f"{wanted} from {over} over {under}")
+    if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
+        columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
+    _leave_out_what_is_not_held(columns, under, test)
+    temperature = temperatures(columns)
+    if wanted == "modulus":
+        refuse_stiffer_than_diamond(columns, values)
+        columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
+    kelvins = np.nan_to_num(np.round(temperature))
+    columns.states = list(zip(kelvins, np.round(time, 9), strict=True))
+    refuse_pooled([columns])
+    keep = kept(columns, time, values)
+    time, values, temperature = time[keep], values[keep], temperature[keep]
     steps = np.diff(time)
     runs_on = np.all(steps > 0) or np.all(steps < 0)
     whole = runs_on or np.any(np.isnan(temperature))
     source = source_of(file, [*file.notes, *columns.notes])
-    held = _MEASURED[kind][2]
     found = []
     for part in [np.arange(time.size)] if whole else levels(temperature):
         known = temperature[part][~np.isnan(temperature[part])]
@@ -299,7 +350,7 @@ def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Optio
                 f"the temperature varies by {np.ptp(known):.3g} K; a step test has one"
             )
         stated: dict[str, Any] = {
-            held: _level(columns, held),
+            under: _level(columns, under),
             "temperature": float(np.mean(known)) if known.size else None,
         }
         found.append(kind(time[part], values[part], modulus, source=source, **stated))
@@ -338,59 +389,6 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> TabulatedS
             "the shifts rise with temperature; a_T exceeds 1 in the cold: give 1/a_T"
         )
     return table
-
-
-def _rows(
-    file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type
-) -> tuple[Array, Array, Array, str, MaterialColumns]:
-    """Return time, modulus or compliance, temperature and kind of the single matching table."""
-    wanted, over, under, test = _MEASURED[kind_of_test]
-    found = []
-    for table in tables:
-        columns = MaterialColumns(file, table, given)
-        timed = "time" in columns or "step_time" in columns
-        known = under in columns or under in table.levels
-        if table.rows and timed and (wanted in columns or (over in columns and known)):
-            found.append(columns)
-    if not found:
-        raise no_such_test(file, tables, given, test)
-    # of several steps, select the one with constant stress or strain
-    found = [columns for columns in found if test_of(columns) == test] or found
-    if len(found) > 1:
-        numbers = [str(columns.table.number) for columns in found]
-        raise file.error(
-            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one (--table)"
-        )
-    (columns,) = found
-    # prefer the time since the step to the time of the whole test
-    timed = "step_time" if "step_time" in columns else "time"
-    needed = (wanted,) if wanted in columns else (over, under)
-    kind = kind_of(columns, needed, timed, "temperature")
-    time = columns.si(timed) - given.step_start
-    if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
-        raise columns.error(
-            f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s, a time of day; set '
-            "--step-start"
-        )
-    if not given.step_start and timed == "time":
-        _refuse_late_start(columns, time)
-    if wanted in columns:
-        values = columns.si(wanted)
-    else:
-        values = _ratio(columns, over, under)
-        columns.notes.append(f"{wanted} from {over} over {under}")
-    if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
-        columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
-    _leave_out_what_is_not_held(columns, under, test)
-    temperature = temperatures(columns)
-    if wanted == "modulus":
-        refuse_stiffer_than_diamond(columns, values)
-        columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
-    kelvins = np.nan_to_num(np.round(temperature))
-    columns.states = list(zip(kelvins, np.round(time, 9), strict=True))
-    refuse_pooled([columns])
-    keep = kept(columns, time, values)
-    return time[keep], values[keep], temperature[keep], kind, columns
 
 
 def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
