@@ -245,16 +245,15 @@ def _tests_in(opened: Sequence[_Opened]) -> set[str | None]:
 def _tables(path: Path, given: Options) -> tuple[LabFile, list[Table]]:
     file = load(path)
     given.check_format(FORMATS)
-    fitting = first_fitting(file, FORMATS, given.format, MATERIAL, given.names)
-    assert fitting is not None, "plain tables raise their own error"
-    found, whole = fitting
-    said = () if given.format is not None else (f"detected format: {found}",)
-    cut = () if found == "trios-json" else file.left_out
-    parts = [part for table in whole for part in pieces(table, MATERIAL)]
+    file, whole = first_fitting(file, FORMATS, given.format, MATERIAL, given.names)
+    said = () if given.format is not None else (f"detected format: {file.format}",)
+    cut = () if file.format == "trios-json" else file.left_out
+    # a file of no format has raised the error of plain tables
+    parts = [part for table in whole or () for part in pieces(table, MATERIAL)]
     pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
     numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
     tables, others = _selected(file, where(file, numbered, given.where), given)
-    return replace(file, notes=(*said, *file.notes, *cut, *others), format=found), tables
+    return replace(file, notes=(*said, *file.notes, *cut, *others)), tables
 
 
 def _selected(

@@ -5,7 +5,7 @@ import io
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from os import PathLike, fspath
 from typing import Any, NamedTuple, TypeVar
@@ -176,11 +176,12 @@ Found = TypeVar("Found")
 
 def first_fitting(
     file: LabFile, readers: Mapping[str, Callable[..., Found | None]], said: str | None, *more: Any
-) -> tuple[str, Found] | None:
-    """Return the format given by the caller, or the first that fits, and what its reader returns.
+) -> tuple[LabFile, Found | None]:
+    """Return the file with the format given by the caller, or the first that fits, and its content.
 
-    A reader returns None for a file of another layout. A damaged header lacks an entry, or has no
-    number there, which the reader does not expect.
+    The content is what the reader of this format returns, None if no format fits. A reader returns
+    None for a file of another layout. A damaged header lacks an entry, or has no number there,
+    which the reader does not expect.
     """
     for name, reader in readers.items():
         if said not in (None, name):
@@ -194,10 +195,10 @@ def first_fitting(
                 f"read as {name}, the file is truncated, damaged or of another layout: {error!r}"
             ) from None
         if found is not None:
-            return name, found
+            return replace(file, format=name), found
     if said is not None:
         raise file.error(f"the file does not have the format {said}; leave out --format")
-    return None
+    return file, None
 
 
 def entries(lines: Iterable[str], mark: str = "=") -> dict[str, str]:

@@ -146,20 +146,18 @@ def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackR
     given.check_format(FORMATS)
     # a damaged number may overflow; the record rejects it with its name
     with np.errstate(all="ignore"):
-        found = None
+        curves = None
         if given.format not in _TABLES:
-            found = first_fitting(file, microscopes.READERS, given.format, given)
-        if found is not None:
-            file = replace(file, format=found[0])
-            records = [_record(file, curve, curve.notes) for curve in found[1]]
+            file, curves = first_fitting(file, microscopes.READERS, given.format, given)
+        if curves is not None:
+            records = [_record(file, curve, curve.notes) for curve in curves]
         else:
             if not file.lines and not file.is_workbook:
                 raise file.error("the file is neither text nor a workbook; export it as text")
             file = replace(file, notes=(*file.notes, *file.left_out))
-            fitting = first_fitting(file, _TABLES, given.format, TACK, given.names)
-            assert fitting is not None, "plain tables raise their own error"
-            file = replace(file, format=fitting[0])
-            read = tables.where(file, fitting[1], given.where)
+            file, read = first_fitting(file, _TABLES, given.format, TACK, given.names)
+            # a file of no format has raised the error of plain tables
+            read = tables.where(file, read or (), given.where)
             records = [_from_table(file, table, given, few) for table in read]
     if not given.temperature_in_name:
         return records
