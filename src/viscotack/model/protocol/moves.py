@@ -177,7 +177,22 @@ class Apart(_State):
 
 
 @dataclass(frozen=True)
-class Approach:
+class _Motion(Checked):
+    """A move at constant speed to a state."""
+
+    speed: Speed
+    to: Start
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.to, Start):
+            raise InputError(
+                f"{type(self).__name__} must end at AtDepth, AtForce or AtRadius, got {self.to!r}"
+            )
+        super().__post_init__()
+
+
+@dataclass(frozen=True)
+class Approach(_Motion):
     """Move the drive into the solid at constant speed.
 
     Parameters
@@ -193,16 +208,9 @@ class Approach:
     Approach(speed=1e-05, to=AtForce(force=0.0015))
     """
 
-    speed: Speed
-    to: Start
-
-    def __post_init__(self) -> None:
-        _check_end(self.to, "Approach")
-        conform(self)
-
 
 @dataclass(frozen=True)
-class Retract:
+class Retract(_Motion):
     """Move the drive out of the solid at constant speed, to a depth, a force or a radius.
 
     Parameters
@@ -218,16 +226,9 @@ class Retract:
     Retract(speed=1e-05, to=AtDepth(depth=-2e-06))
     """
 
-    speed: Speed
-    to: Start
-
-    def __post_init__(self) -> None:
-        _check_end(self.to, "Retract")
-        conform(self)
-
 
 @dataclass(frozen=True)
-class MoveTo:
+class MoveTo(Checked):
     """Move the drive linearly to a depth in a given time, for piecewise linear histories.
 
     Parameters
@@ -246,9 +247,6 @@ class MoveTo:
 
     depth: Annotated[float, Quantity("m", "D", "depth of the drive at the end", measure="depth")]
     duration: Duration
-
-    def __post_init__(self) -> None:
-        conform(self)
 
 
 @dataclass(frozen=True)
@@ -279,7 +277,7 @@ class Dwell:
 
 
 @dataclass(frozen=True)
-class LoadTo:
+class LoadTo(Checked):
     """Change the force linearly to a value in a given time, under load control.
 
     Parameters
@@ -302,17 +300,9 @@ class LoadTo:
     ]
     duration: Duration
 
-    def __post_init__(self) -> None:
-        conform(self)
-
 
 HOLDS = ("drive", "depth", "force")
 Move = Approach | Retract | MoveTo | Dwell | LoadTo
-
-
-def _check_end(to: object, name: str) -> None:
-    if not isinstance(to, Start):
-        raise InputError(f"{name} must end at AtDepth, AtForce or AtRadius, got {to!r}")
 
 
 @dataclass(frozen=True)
