@@ -408,12 +408,8 @@ class PassportTable:
 
 def material_of(given: Any, reading: Reading, temperature: float | None = None) -> Material:
     """Return the material that a table [material] states."""
-    where = f"{reading.where}, [material]"
-    if not isinstance(given, Mapping):
-        raise InputError(
-            f"{reading.where}: the table [material] is missing; see docs/input.md", field="material"
-        )
-    if "passport" in given:
+    where, table = f"{reading.where}, [material]", reading.given(given, "material")
+    if "passport" in table:
         passport, kelvin = _passport(given, reading, temperature)
         if reading.pure:
             if kelvin is not None:
@@ -431,8 +427,8 @@ def material_of(given: Any, reading: Reading, temperature: float | None = None) 
             f"{reading.where}: a temperature of {temperature:g} K needs a material from a "
             'passport, which contains the shift of its times; [material] passport = "pdms.toml"'
         )
-    kind = reading.choice(given, "material", "model", reading.nouns.materials, OWN)
-    table = {key: value for key, value in given.items() if key != "model"}
+    kind = reading.choice(table, "material", "model", reading.nouns.materials, OWN)
+    del table["model"]
     if reading.pure:
         implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
         table = {k: v for k, v in implied.items() if k in cards(kind)} | table

@@ -20,13 +20,9 @@ def law_from_table(given: Any, reading: Reading) -> Traction:
     Its range is equilibrium_gap or strength. A law that grows or ages has the word of its law at
     rest as ``base``, and the constants of both.
     """
-    if not isinstance(given, Mapping):
-        raise InputError(
-            f"{reading.where}: the table [interface] is missing; see docs/input.md",
-            field="interface",
-        )
-    kind = reading.choice(given, "interface", "law", reading.nouns.laws, OWN)
-    table: dict[str, Any] = {key: value for key, value in given.items() if key != "law"}
+    table = reading.given(given, "interface")
+    kind = reading.choice(table, "interface", "law", reading.nouns.laws, OWN)
+    del table["law"]
     if reading.pure:
         table = dict.fromkeys(_SCALES, 1.0) | table
     if not has_rest(kind):

@@ -116,6 +116,14 @@ class Reading:
             raise InputError(f"must be {wanted}, got {value!r:.60}")
         return plausible("", parse(value, unit), unit)
 
+    def given(self, table: Any, name: str) -> dict[str, Any]:
+        """Return a copy of a table of this name; InputError if it is missing."""
+        if not isinstance(table, Mapping):
+            raise InputError(
+                f"{self.where}: the table [{name}] is missing; see docs/input.md", field=name
+            )
+        return dict(table)
+
     def file(self, table: str, key: str, name: Any) -> Path:
         """Return the path of a file named in a table; InputError where none may be named."""
         if not isinstance(name, str):
@@ -191,14 +199,10 @@ def read_as(kind: type[T], table: Any, reading: Reading, name: str) -> T:
     """
     from pydantic import ValidationError
 
-    where = f"{reading.where}, [{name}]"
-    if not isinstance(table, Mapping):
-        raise InputError(
-            f"{reading.where}: the table [{name}] is missing; see docs/input.md", field=name
-        )
+    where, table = f"{reading.where}, [{name}]", reading.given(table, name)
     refuse_unknown(where, table, (f.name for f in fields(kind) if f.init), "key", table=name)  # type: ignore[arg-type]
     try:
-        return adapter(kind).validate_python(dict(table), context=reading)
+        return adapter(kind).validate_python(table, context=reading)
     except ValidationError as error:
         loc = error.errors()[0]["loc"]
         at = f"{name}.{loc[0]}" if loc else name
