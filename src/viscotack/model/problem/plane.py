@@ -19,7 +19,7 @@ from viscotack.cards import Quantity
 from viscotack.errors import InputError
 from viscotack.model.problem.outputs import PLANE, Kind
 from viscotack.model.problem.units import InSI, time_unit
-from viscotack.model.protocol import Apart, AtRadius, Start, Units
+from viscotack.model.protocol import AtRadius, Units
 from viscotack.model.protocol.words import PUNCH_UNITS
 
 # Units of a protocol, in SI and dimensionless; forces are mean stresses.
@@ -100,28 +100,23 @@ def to_groups(scales: PunchScales) -> Units:
     return Units(1 / scales.length, 1 / scales.stress, 1 / scales.width, 1 / scales.time)
 
 
-def check_start(start: Start | Apart) -> None:
-    """Raise an error for a start at a contact radius."""
-    if isinstance(start, AtRadius):
-        raise InputError(
-            "a punch cannot start at a contact radius, because its contact is as wide as the "
-            f"punch; give a depth or a mean stress, got {start}"
-        )
-
-
 def check(problem: Any) -> None:
     """Raise an error for a start at a contact radius."""
-    check_start(problem.protocol.start)
+    check_groups(problem.protocol)
+
+
+def check_groups(test: Any) -> None:
+    """Raise an error for groups, or the protocol of a problem, with a start at a contact radius."""
+    if isinstance(test.start, AtRadius):
+        raise InputError(
+            "a punch cannot start at a contact radius, because its contact is as wide as the "
+            f"punch; give a depth or a mean stress, got {test.start}"
+        )
 
 
 def lengths(problem: Any) -> tuple[float, float]:
     """Return the units of distances along the surface and of heights [m]: a_0 and h_0."""
     return fracture_length(problem), problem.traction.equilibrium_gap
-
-
-def check_groups(groups: Any) -> None:
-    """Raise an error for a start at a contact radius."""
-    check_start(groups.start)
 
 
 def si_units(

@@ -59,8 +59,23 @@ Spring = Annotated[
 ]
 
 
+class _OfKind:
+    """What the symmetry of the shape decides, in SI and dimensionless."""
+
+    geometry: Any
+
+    @property
+    def outputs(self) -> Kind:
+        """Names and units of the outputs."""
+        return self._kind.outputs(self.geometry)
+
+    @property
+    def _kind(self) -> Any:
+        return _KINDS[self.geometry.symmetry]
+
+
 @dataclass(frozen=True)
-class Problem:
+class Problem(_OfKind):
     """A contact problem in SI: a shape on a body.
 
     Parameters
@@ -178,11 +193,6 @@ class Problem:
         return plane.fracture_length(self)
 
     @property
-    def outputs(self) -> Kind:
-        """Names and units of the outputs."""
-        return self._kind.outputs(self.geometry)
-
-    @property
     def units(self) -> Mapping[str, str]:
         """Units of the protocol."""
         return self._kind.SI
@@ -210,17 +220,13 @@ class Problem:
             body=self.body.reduced(along),
         )
 
-    @property
-    def _kind(self) -> Any:
-        return _KINDS[self.geometry.symmetry]
-
     @cached_property
     def _scales(self) -> Scales | PunchScales:
         return self._kind.scales_of(self)
 
 
 @dataclass(frozen=True)
-class Groups:
+class Groups(_OfKind):
     """A dimensionless problem: a reduced shape on a reduced body.
 
     Parameters
@@ -332,11 +338,6 @@ class Groups:
         return np.pi / (2 * self.traction.strength * self.cohesion)
 
     @property
-    def outputs(self) -> Kind:
-        """Names and units of the outputs."""
-        return self._kind.outputs(self.geometry)
-
-    @property
     def units(self) -> Mapping[str, str]:
         """Units of the protocol."""
         return self._kind.GROUPS
@@ -413,10 +414,6 @@ class Groups:
             body=self.body.reduced(1 / unit.along),
             protocol=units.scaled(test),
         )
-
-    @property
-    def _kind(self) -> Any:
-        return _KINDS[self.geometry.symmetry]
 
 
 Case = Problem | Groups

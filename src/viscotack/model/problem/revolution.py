@@ -165,14 +165,9 @@ def si_units(
 
 def scales_of(problem: Any) -> Scales:
     """Return the SI values of the units of the dimensionless outputs."""
-    return scales_of_sphere(problem.radius, problem.material, problem.traction)
-
-
-def scales_of_sphere(radius: float, material: Material, traction: Traction) -> Scales:
-    """Return the SI values of the units for a sphere of this radius [m]."""
-    w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
-    beta = (radius**2 * w / material.contact_modulus) ** (1 / 3)
-    force, time = 1.5 * np.pi * radius * w, time_unit(material, traction)
+    w, h0 = problem.traction.work_of_adhesion, problem.traction.equilibrium_gap
+    beta, _ = lengths(problem)
+    force, time = 1.5 * np.pi * problem.radius * w, time_unit(problem.material, problem.traction)
     return Scales(
         force=force,
         length=h0,
