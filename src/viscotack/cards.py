@@ -138,7 +138,7 @@ class Quantity:
 
     @property
     def range(self) -> str:
-        """Range as text that completes a sentence with "must"."""
+        """Range as text that completes a sentence with "must"; empty without a bound."""
         above, least, most = self.above, self.least, self.most
         if above is not None and most is not None:
             return f"lie in ({above:g}, {most:g}]"
@@ -146,12 +146,9 @@ class Quantity:
             return f"lie between {least:g} and {most:g}"
         if above is not None:
             return "be positive" if above == 0 else f"be above {above:g}"
-        return f"be at least {least:g}" if least is not None else f"be at most {most:g}"
-
-    @property
-    def bounded(self) -> bool:
-        """Whether the card has a lower or an upper bound."""
-        return not (self.above is None and self.least is None and self.most is None)
+        if least is not None:
+            return f"be at least {least:g}"
+        return "" if most is None else f"be at most {most:g}"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         """Read a number of a table: text with its unit, or where the reader says so a number."""

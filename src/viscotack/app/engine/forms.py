@@ -129,7 +129,7 @@ def _asked(
     return said | {
         "kind": "number",
         "unit": unit,
-        "range": card.range if card.bounded else "",
+        "range": card.range,
         "example": example or _SUGGESTED.get(unit, "1"),
     }
 

@@ -117,7 +117,7 @@ class Number(_Read):
 def number_of(card: Quantity, **more: Any) -> Number:
     """Return the option of a number that a card describes; keywords are those of `Number`."""
     words = f"{card.words[0].upper()}{card.words[1:]}"
-    words += f"; must {card.range}" if card.bounded else ""
+    words += f"; must {card.range}" if card.range else ""
     words += f', for example "{card.example}".' if card.example else "."
     ends = {"above": card.above, "least": card.least, "most": card.most}
     return Number(words, unit=card.unit, example=card.example, **ends, **more)

@@ -54,7 +54,10 @@ def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
     }
     tables["surface"]["kind"] = {"anyOf": [_TEXT, tables["surface"]["kind"]]}
     solids = {
-        word: _keys(kind, more={"model": {"const": word}, "modulus_ratio": _ratio()} | file)
+        word: _keys(
+            kind,
+            more={"model": {"const": word}, "modulus_ratio": _json(card_of(ModulusRatio))} | file,
+        )
         for word, kind in nouns.materials.items()
     }
     solids["passport"] = _keys(PassportTable)
@@ -86,10 +89,6 @@ def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
 
 def _reference(word: str) -> dict[str, str]:
     return {"$ref": f"#/$defs/{word}"}
-
-
-def _ratio() -> dict[str, Any]:
-    return _json(card_of(ModulusRatio))
 
 
 def _json(card: Quantity) -> dict[str, Any]:
@@ -152,5 +151,5 @@ def _row(field: Field) -> tuple[str, ...]:
     """Return word, symbol, unit and meaning of a field."""
     card = field.card
     unit = card.unit if isinstance(card, Quantity) else ", ".join(card.units)
-    limits = f"; must {card.range}" if getattr(card, "bounded", False) else ""
+    limits = f"; must {card.range}" if getattr(card, "range", "") else ""
     return f"`{field.name}`", card.symbol, unit, f"{card.words}{limits}"
