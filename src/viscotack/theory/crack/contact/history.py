@@ -251,11 +251,12 @@ class Contact:
         self, state: _State, drive: Drive, number: int, rows: list[Any], last: bool
     ) -> tuple[_State, bool]:
         """Compute one drive and append its steps."""
-        given = {"drive": state.drive, "depth": state.depth, "force": state.force}[drive.control]
+        given = getattr(state, drive.control)
         begin, end = state.time, state.time + drive.duration
         if drive.target is not None:
             drive = replace(drive, speed=(drive.target - given) / drive.duration)
-        dt = min(_FIRST * self._slowest(drive), self._longest(drive, drive.duration))
+        slowest = drive.duration if drive.speed == 0 else 1.0 / abs(drive.speed)
+        dt = min(_FIRST * slowest, self._longest(drive, drive.duration))
         least = 1e-7 * dt
         for _ in range(_MOST_STEPS):
             dt = min(dt, self._longest(drive, end - state.time))
@@ -297,9 +298,6 @@ class Contact:
         if not self._chain.times.size or rest < _FIRST * drive.duration:
             return rest
         return min(drive.duration / _WAIT, rest / _BEFORE_END)
-
-    def _slowest(self, drive: Drive) -> float:
-        return drive.duration if drive.speed == 0 else 1.0 / abs(drive.speed)
 
     def _note(self, rows: list[Any], now: _State, number: int) -> None:
         speed = -self._mu2 * now.rate
@@ -576,12 +574,8 @@ def _bisected(excess: Callable[[float], float], negative: float, positive: float
     return (x0 + x1) / 2
 
 
-def _quantity(state: _State, name: str) -> float:
-    return {"depth": state.depth, "force": state.force, "radius": state.radius}[name]
-
-
 def _reached(state: _State, drive: Drive) -> bool:
     assert drive.end is not None
     name, value = drive.end
-    now = _quantity(state, name)
+    now = getattr(state, name)
     return now >= value if drive.speed > 0 else now <= value
