@@ -13,7 +13,7 @@ from viscotack.model.materials.passport_file import passport_text, read_passport
 from viscotack.model.materials.passport_uncertainty import allowed, shift_error
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.model.problem.case_file import passport_of
-from viscotack.model.problem.tables import Reading
+from viscotack.model.tables import Reading
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {

@@ -17,7 +17,7 @@ from functools import lru_cache
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from viscotack.errors import InputError
-from viscotack.units import as_given, finite, parse
+from viscotack.units import as_given, finite
 
 # Smallest and largest magnitude of a quantity in SI that a file or an option may state. Tips of
 # microscopes (1 nm, 0.1 nN), creep (1 pm/s for years), glasses and gels lie far inside.
@@ -276,30 +276,6 @@ def with_units(noun: Any) -> dict[str, Any]:
         first, second = field.card.units
         found[name] = [[said(a, first), said(b, second)] for a, b in getattr(noun, name)]
     return found
-
-
-def of_units(noun: Any, table: Mapping[str, Any]) -> Any:
-    """Return the noun of a class whose numbers a table states with units; see :func:`with_units`.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown, missing, or has a wrong unit.
-    """
-    numbers, pairs = cards(noun), cards(noun, Pairs)
-    if unknown := table.keys() - {*numbers, *pairs}:
-        raise InputError(f"unknown key {min(unknown)!r}; expected {', '.join((*numbers, *pairs))}")
-    values: dict[str, Any] = {}
-    for name, field in (*numbers.items(), *pairs.items()):
-        if name not in table:
-            if field.needed:
-                raise InputError(f"{name} is missing")
-        elif name in numbers:
-            values[name] = parse(table[name], field.card.unit)
-        else:
-            first, second = field.card.units
-            values[name] = tuple((parse(a, first), parse(b, second)) for a, b in table[name])
-    return noun(**values)
 
 
 def card_of(annotation: Any) -> Quantity:

@@ -14,7 +14,7 @@ from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded
-from viscotack.model.problem.tables import Read, Reading
+from viscotack.model.tables import Read, Reading
 
 # Names of the variables of a design.
 VARIABLES = (

@@ -297,7 +297,7 @@ def table_of_solid(
     """Return the table [material] of the words of an option and the numbers beside them."""
     from viscotack.cards import cards
     from viscotack.model.materials.library import MATERIALS
-    from viscotack.model.problem.tables import OWN
+    from viscotack.model.tables import OWN
     from viscotack.units import parse
 
     numbers = {name: value for name, value in said.items() if name != "model"}

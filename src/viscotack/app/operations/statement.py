@@ -14,9 +14,9 @@ from .request import Caller
 
 if TYPE_CHECKING:
     from viscotack.model.materials.passport import Passport
+    from viscotack.model.nouns import Nouns
     from viscotack.model.problem import Case
-    from viscotack.model.problem.nouns import Nouns
-    from viscotack.model.problem.tables import Reading
+    from viscotack.model.tables import Reading
 
 # Keys of a statement by flags, and of one by a file.
 _INDENTER, _CASE, _TEMPERATURE, _SET = "indenter", "case", "temperature", "set"
@@ -77,8 +77,8 @@ def statement(given: Any, option: Contact, caller: Caller) -> Statement:
         given = {_CASE: given}
     if not isinstance(given, Mapping):
         return Statement(_checked(given, option))
-    from viscotack.model.problem.nouns import known
-    from viscotack.model.problem.tables import Reading
+    from viscotack.model.nouns import known
+    from viscotack.model.tables import Reading
 
     nouns = known(caller.also)
     given = {name: value for name, value in given.items() if value is not None and value != []}
@@ -120,7 +120,7 @@ def _of_case(
 ) -> Statement:
     """Return the problem of a file, at another temperature or with other numbers."""
     from viscotack.files.toml import read_toml
-    from viscotack.model.problem.tables import Reading
+    from viscotack.model.tables import Reading
 
     if not isinstance(given[_CASE], str | Path):
         raise InputError(f"case must be the name of a file, got {given[_CASE]!r:.60}", field=_CASE)

@@ -9,7 +9,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from viscotack.cards import of_units, with_units
+from viscotack.cards import with_units
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import Target, write_whole
@@ -17,6 +17,7 @@ from viscotack.model.materials.material import Material
 from viscotack.model.materials.passport import Evidence, Origin, Passport
 from viscotack.model.materials.shift import LAWS, FittedShift, Shift, TabulatedShift
 from viscotack.model.materials.words import MODELS, word_of
+from viscotack.model.tables import OWN, Reading, read_as
 from viscotack.units import parse
 
 VERSION = 1
@@ -34,6 +35,7 @@ _TIMES = {
     "fractional-zener": "tau0 is the retardation time",
 }
 _NOT_STATED = "not stated"
+_READING = Reading("the passport", bare=True)
 
 
 def write_passport(passport: Passport, path: Target) -> None:
@@ -180,17 +182,15 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
             f"{path}: passport version {tables['passport']!r} is not supported, only {VERSION}; "
             "use a newer viscotack"
         )
+    own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
     try:
-        return _passport(tables, known_models(also))
+        return _passport(tables, {**MODELS, **own})
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         words = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error
-        raise InputError(f"{path}: {words}; docs/materials.md shows a passport") from None
-
-
-def known_models(also: Iterable[Any] = ()) -> Mapping[str, Any]:
-    """Return the classes of materials by their words, including user-defined ones."""
-    own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
-    return {**MODELS, **own}
+        raise InputError(
+            f"{path}: {words}; docs/materials.md shows a passport",
+            field=getattr(error, "field", ""),
+        ) from None
 
 
 def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
@@ -208,63 +208,47 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
     reference = temperature.get("reference")
     return Passport(
         name=str(tables.get("name", "")),
-        material=material_in(tables["material"], models),
+        material=_material(tables.get("material"), models),
         temperature=None if reference is None else parse(reference, "K"),
-        shift=_shift(temperature) if "law" in temperature else None,
+        shift=_shift(temperature, "temperature") if "law" in temperature else None,
         fitted_shift=_fitted(nearest) if nearest else None,
         temperatures=_span(temperature.get("measured"), "K"),
         frequencies=_span(tables.get("range", {}).get("angular_frequency"), "rad/s"),
         measured=None if measured == _NOT_STATED else measured,
-        origin=_made(Origin, tables.get("origin", {})),
-        evidence=_made(Evidence, tables["evidence"]) if "evidence" in tables else None,
-        allowed=tuple(material_in(table, models) for table in tables.get("allowed", ())),
+        origin=read_as(Origin, tables.get("origin", {}), _READING, "origin"),
+        evidence=(
+            read_as(Evidence, tables["evidence"], _READING, "evidence")
+            if "evidence" in tables
+            else None
+        ),
+        allowed=tuple(_material(table, models) for table in tables.get("allowed", ())),
     )
 
 
-def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material:
+def _material(given: Any, models: Mapping[str, Any]) -> Material:
     """Return the material of a table [material]; its model must be one of the given ones."""
-    model = table["model"]
-    if model not in models:
-        raise InputError(
-            f"[material] model must be one of {', '.join(models)}, got {model!r}; for a "
-            "user-defined model, give its class (also=(CLASS,) in Python, --with FILE.py on the "
-            "command line)"
-        )
-    try:
-        return of_units(models[model], {k: v for k, v in table.items() if k != "model"})
-    except InputError as error:
-        raise InputError(f"[material] {error}") from None
+    table = _READING.given(given, "material")
+    kind = _READING.choice(table, "material", "model", models, OWN)
+    del table["model"]
+    return read_as(kind, table, _READING, "material")
 
 
-def _shift(table: Mapping[str, Any]) -> Shift:
+def _shift(table: Mapping[str, Any], name: str) -> Shift:
     zero, law = parse(table["zero"], "K"), table["law"]
     if law == "table":
         rows = [(parse(T, "K"), float(value)) for T, value in table["shifts"]]
         temperature, values = zip(*rows, strict=True)
         more = {key: tuple(map(float, table.get(key, ()))) for key in ("uncertainty", "vertical")}
         return TabulatedShift(zero, temperature, values, **more)
-    if law not in LAWS:
-        raise InputError(
-            f"[temperature] law must be one of {', '.join(LAWS)} or table, got {law!r}"
-        )
+    kind = _READING.choice(table, name, "law", LAWS, '; law = "table" for one measured')
     others = ("law", "zero", "reference", "measured", "standard_error", "misfit")
     constants = {key: value for key, value in table.items() if key not in others}
-    return of_units(LAWS[law], constants | {"reference_temperature": zero})
+    return read_as(kind, constants | {"reference_temperature": zero}, _READING, name)
 
 
 def _fitted(table: Mapping[str, Any]) -> FittedShift:
-    law: Any = _shift(table)
+    law: Any = _shift(table, "nearest_law")
     return FittedShift(law, tuple(map(float, table["standard_error"])), float(table["misfit"]))
-
-
-def _made(kind: Any, table: Mapping[str, Any]) -> Any:
-    if unknown := table.keys() - {field.name for field in fields(kind)}:
-        raise InputError(f"[{kind.__name__.lower()}] has the unknown key {min(unknown)!r}")
-    return kind(**{key: _frozen(value) for key, value in table.items()})
-
-
-def _frozen(value: Any) -> Any:
-    return tuple(_frozen(v) for v in value) if isinstance(value, list) else value
 
 
 def _span(values: Any, unit: str) -> tuple[float, float] | None:

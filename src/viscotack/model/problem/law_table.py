@@ -7,7 +7,7 @@ from typing import Any
 from viscotack.cards import Field, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
-from viscotack.model.problem.tables import OWN, Reading, UnknownNoun, read_as, stated
+from viscotack.model.tables import OWN, Reading, UnknownNoun, read_as, stated
 from viscotack.model.traction import LAWS, LennardJones, Tabulated, Traction, has_rest
 
 STRENGTH = Quantity("Pa", "sigma0", "largest tension of the law", above=0, example="100 kPa")

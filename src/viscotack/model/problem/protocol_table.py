@@ -7,7 +7,6 @@ from typing import Annotated, Any
 from viscotack.cards import Exact, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.model.problem.problem import Cohesion, Groups, Rate, Spring, Tabor
-from viscotack.model.problem.tables import Reading, read_as
 from viscotack.model.protocol import (
     Apart,
     AtDepth,
@@ -26,6 +25,7 @@ from viscotack.model.protocol.words import (
     start_from_words,
     words_of_move,
 )
+from viscotack.model.tables import Reading, read_as
 
 _Depth = Annotated[float, cards(AtDepth)["depth"].card]
 _Force = Annotated[float, cards(AtForce)["force"].card]

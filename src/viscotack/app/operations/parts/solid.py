@@ -34,9 +34,9 @@ def solid_of(given: "str | Passport", caller: Caller) -> "Passport | Material":
     if not isinstance(given, str) or not given.lstrip().startswith(TABLE):
         return passport_of(given, caller)
     from viscotack.files.toml import parse_toml
+    from viscotack.model.nouns import known
     from viscotack.model.problem.case_file import material_of
-    from viscotack.model.problem.nouns import known
-    from viscotack.model.problem.tables import Reading
+    from viscotack.model.tables import Reading
 
     table = parse_toml(given, "the material").get("material")
     if not isinstance(table, dict):
@@ -64,9 +64,9 @@ class Reduced(Request):
     def solid(self, caller: Caller, usual: str = "power-law") -> "Material":
         """Return the solid; `usual` is the word of the material where none is said."""
         from viscotack.model.materials.passport import Passport
+        from viscotack.model.nouns import known
         from viscotack.model.problem.case_file import material_of
-        from viscotack.model.problem.nouns import known
-        from viscotack.model.problem.tables import Reading
+        from viscotack.model.tables import Reading
 
         nouns, words = known(caller.also), self.material or usual
         numbers = {name: x for name, x in self.given.items() if name != "material"}

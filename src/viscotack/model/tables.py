@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from viscotack.cards import Pairs, Quantity, cards, plausible
 from viscotack.errors import InputError, wrong_value
-from viscotack.model.problem.nouns import Nouns, known
+from viscotack.model.nouns import Nouns, known
 from viscotack.units import parse
 
 if TYPE_CHECKING:
