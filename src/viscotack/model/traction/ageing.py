@@ -21,15 +21,13 @@ starts use; :func:`viscotack.model.traction.ages` identifies them.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.cards import Quantity
-from viscotack.model.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
-from viscotack.model.traction.lennard_jones import LennardJones
 from viscotack.model.traction.resting import OverRest
 
 # Contact time after which a saturating growth differs from its end by e^-40, less than round-off.
@@ -41,10 +39,11 @@ ReferenceTime = Annotated[
 ]
 
 
+@dataclass(frozen=True)
 class _Ageing(OverRest):
     """Common part of laws that grow with the time in contact, except their growth."""
 
-    reference_time: Any
+    reference_time: ReferenceTime
 
     def growth_after(self, contact_time: npt.ArrayLike) -> Array:
         """Return the relative growth of the tension after times in contact [s], not negative."""
@@ -104,6 +103,7 @@ class LogarithmicAgeing(_Ageing):
 
     Examples
     --------
+    >>> from viscotack import LennardJones
     >>> rest = LennardJones(work_of_adhesion=0.05, equilibrium_gap=20e-9)
     >>> law = LogarithmicAgeing.of(rest, reference_time=1.0, sensitivity=0.1)
     >>> f"{law.growth_after(1000.0):.2f}"
@@ -112,13 +112,9 @@ class LogarithmicAgeing(_Ageing):
 
     word: ClassVar[str] = "logarithmic-ageing"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
-    reference_time: ReferenceTime
     sensitivity: Annotated[
         float, Quantity("1", "s", "growth for every factor of e in time", above=0, example="0.1")
     ]
-    base: Traction = LennardJones(1.0, 1.0)
 
     @property
     def settled(self) -> float:
@@ -152,6 +148,7 @@ class SaturatingAgeing(_Ageing):
 
     Examples
     --------
+    >>> from viscotack import LennardJones
     >>> rest = LennardJones(work_of_adhesion=0.05, equilibrium_gap=20e-9)
     >>> law = SaturatingAgeing.of(rest, reference_time=10.0, largest_growth=2.0)
     >>> f"{law.growth_after(10.0):.2f}"
@@ -160,14 +157,10 @@ class SaturatingAgeing(_Ageing):
 
     word: ClassVar[str] = "saturating-ageing"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
-    reference_time: ReferenceTime
     largest_growth: Annotated[
         float,
         Quantity("1", "g", "growth of the tension of an old contact", above=0, example="1.5"),
     ]
-    base: Traction = LennardJones(1.0, 1.0)
 
     @property
     def settled(self) -> float:

@@ -18,15 +18,13 @@ starts use; :func:`viscotack.model.traction.grows` identifies them.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.cards import Quantity
-from viscotack.model.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
-from viscotack.model.traction.lennard_jones import LennardJones
 from viscotack.model.traction.resting import OverRest
 
 # Fraction of the reference speed below which a power law is proportional to the speed.
@@ -42,10 +40,11 @@ ReferenceSpeed = Annotated[
 ]
 
 
+@dataclass(frozen=True)
 class _Growing(OverRest):
     """Common part of laws that grow with the opening speed, except their growth."""
 
-    reference_speed: Any
+    reference_speed: ReferenceSpeed
 
     def growth(self, opening_speed: npt.ArrayLike) -> Array:
         """Return the relative growth of the tension at opening speeds [m/s]; 0 while closing."""
@@ -108,6 +107,7 @@ class GentSchultz(_Growing):
 
     Examples
     --------
+    >>> from viscotack import LennardJones
     >>> rest = LennardJones(work_of_adhesion=0.1523, equilibrium_gap=200e-9)
     >>> law = GentSchultz.of(rest, reference_speed=1e-3, exponent=0.5)
     >>> float(law.growth(1e-3).round(4)), float(law.growth(-1e-3))
@@ -116,13 +116,9 @@ class GentSchultz(_Growing):
 
     word: ClassVar[str] = "gent-schultz"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
-    reference_speed: ReferenceSpeed
     exponent: Annotated[
         float, Quantity("1", "n", "power of the opening speed", above=0, most=1, example="0.4154")
     ]
-    base: Traction = LennardJones(1.0, 1.0)
 
     def _growth(self, u: Array) -> Array:
         return power_growth(u, self.exponent)
@@ -196,6 +192,7 @@ class Eyring(_Growing):
 
     Examples
     --------
+    >>> from viscotack import LennardJones
     >>> rest = LennardJones(work_of_adhesion=0.1523, equilibrium_gap=200e-9)
     >>> law = Eyring.of(rest, reference_speed=1e-6, sensitivity=0.2)
     >>> f"{law.growth(1e-3):.2f}"
@@ -204,13 +201,9 @@ class Eyring(_Growing):
 
     word: ClassVar[str] = "eyring"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
-    reference_speed: ReferenceSpeed
     sensitivity: Annotated[
         float, Quantity("1", "s", "growth for every factor of e in speed", above=0, example="0.2")
     ]
-    base: Traction = LennardJones(1.0, 1.0)
 
     def _growth(self, u: Array) -> Array:
         return self.sensitivity * np.arcsinh(u)

@@ -8,7 +8,7 @@ excess depends on the time in contact.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
@@ -17,10 +17,12 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.cards import conform
 from viscotack.errors import InputError, OutOfRange
-from viscotack.model.traction.law import Traction
+from viscotack.model.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
+from viscotack.model.traction.lennard_jones import LennardJones
 from viscotack.units import positive
 
 
+@dataclass(frozen=True)
 class OverRest:
     """Common part of these laws: everything except their constants and their excess.
 
@@ -28,9 +30,9 @@ class OverRest:
     these classes are the law at rest, which relaxed contacts and starts use.
     """
 
-    work_of_adhesion: Any
-    equilibrium_gap: Any
-    base: Any
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
+    base: Traction = field(default=LennardJones(1.0, 1.0), kw_only=True)
 
     @classmethod
     def of(cls, base: Traction, **constants: float) -> Self:
@@ -59,11 +61,9 @@ class OverRest:
     @property
     def at_rest(self) -> Any:
         """The law of the gap alone."""
-        return replace(
-            self.base,
-            work_of_adhesion=self.work_of_adhesion,
-            equilibrium_gap=self.equilibrium_gap,
-        )
+        base: Any = self.base
+        w, h0 = self.work_of_adhesion, self.equilibrium_gap
+        return replace(base, work_of_adhesion=w, equilibrium_gap=h0)
 
     def traction(self, gap: npt.ArrayLike, at: npt.ArrayLike = 0.0) -> Array:
         """Return the traction [Pa], positive in tension, at gaps [m].
