@@ -142,17 +142,9 @@ class StandardSolid(Solid):
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
         return like_input(Cinf + (C0 - Cinf) * voigt(w * self.tau0))
 
-    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
+    def _modes(self, *window: float) -> Modes:
         k = self.modulus_ratio
-        return compressed(
-            k,
-            np.array([1 - k]),
-            np.array([self.tau0]),
-            shortest=shortest,
-            longest=longest,
-            tolerance=tolerance,
-            error=1e-15,
-        )
+        return compressed(k, np.array([1 - k]), np.array([self.tau0]), *window, error=1e-15)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -238,17 +230,10 @@ class Prony(Solid):
         E, tau = np.array(self.branches).T
         return like_input(self.rubbery_modulus + maxwell(w[..., None] * tau) @ E)
 
-    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
+    def _modes(self, *window: float) -> Modes:
         C, rate = self.retardation()
-        return compressed(
-            self.modulus_ratio,
-            self.rubbery_modulus * C[::-1],
-            1 / rate[::-1],
-            shortest=shortest,
-            longest=longest,
-            tolerance=tolerance,
-            error=1e-14,
-        )
+        weights, times = self.rubbery_modulus * C[::-1], 1 / rate[::-1]
+        return compressed(self.modulus_ratio, weights, times, *window, error=1e-14)
 
     def reduced(self) -> "Prony":
         """Return the dimensionless solid: rubbery modulus 1, longest time 1, Poisson ratio 0."""

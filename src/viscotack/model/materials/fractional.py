@@ -143,15 +143,9 @@ class FractionalZener(Solid):
             # merge the modes faster, and those slower, than the window into one each
             inside = np.clip(log_u, first - 5, last - math.log(tolerance) + 5)
             log_u, place = np.unique(inside, return_inverse=True)
-            modes = compressed(
-                k,
-                (1 - k) * np.bincount(place, weights=weights).astype(float),
-                self.tau0 * np.exp(log_u),
-                shortest=shortest,
-                longest=longest,
-                tolerance=tolerance / 2,
-                error=0.0,
-            )
+            weights = (1 - k) * np.bincount(place, weights=weights).astype(float)
+            window = shortest, longest, tolerance / 2
+            modes = compressed(k, weights, self.tau0 * np.exp(log_u), *window, error=0.0)
             missed = float(np.max(np.abs(modes.creep(self.tau0 * np.exp(at)) - exact)))
             error = 1.05 * missed + ROUNDING
             if error <= tolerance:

@@ -99,10 +99,10 @@ def compressed(
     instantaneous: float,
     weights: Array,
     times: Array,
-    *,
     shortest: float,
     longest: float,
     tolerance: float,
+    *,
     error: float,
 ) -> Modes:
     """Reduce modes, with the same creep for shortest <= time <= longest.

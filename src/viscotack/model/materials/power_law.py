@@ -123,15 +123,9 @@ class RetardationPowerLaw(Solid):
         step, error = coarse_step(n, longest=longest / tau0, tolerance=0.6 * tolerance / (1 - k))
         # modes that have relaxed to exp(-40) at the shortest time are instantaneous
         weights, tau = nodes(n, smallest=shortest / tau0 / 40, step=step)
-        return compressed(
-            k,
-            (1 - k) * weights,
-            tau0 * tau,
-            shortest=shortest,
-            longest=longest,
-            tolerance=0.4 * tolerance,
-            error=(1 - k) * error + 1e-15,
-        )
+        window = shortest, longest, 0.4 * tolerance
+        error = (1 - k) * error + 1e-15
+        return compressed(k, (1 - k) * weights, tau0 * tau, *window, error=error)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -221,15 +215,8 @@ class RelaxationPowerLaw(Solid):
         smallest = _smallest(np.array([self.tau0 / longest]), self)
         C, tau = self._retardation(smallest=smallest, step=step)
         reference, reference_tau = self._retardation(smallest=smallest, step=step / 2)
-        modes = compressed(
-            self.modulus_ratio,
-            C,
-            self.tau0 * tau,
-            shortest=shortest,
-            longest=longest,
-            tolerance=tolerance / 2,
-            error=0.0,
-        )
+        window = shortest, longest, tolerance / 2
+        modes = compressed(self.modulus_ratio, C, self.tau0 * tau, *window, error=0.0)
         t = np.geomspace(shortest, longest, 2 + int(np.log(longest / shortest) / (step / 8)))
         exact = summed(lambda ratio: -np.expm1(-ratio), reference, t / self.tau0, reference_tau)
         missed = np.max(np.abs(modes.creep(t) - self.modulus_ratio - exact))
