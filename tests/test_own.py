@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from command_line import answered, exit_status, refused
 from viscotack.campaign import Store, read_plan, run
-from viscotack.model.nouns import known, own_nouns
+from viscotack.model.problem.nouns import known, own_nouns
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 FILES = {"law": "morse.py", "material": "cole_cole.py", "shape": "rounded_cone.py"}

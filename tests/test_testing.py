@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.materials import Modes
-from viscotack.model.nouns import own_nouns
+from viscotack.model.problem.nouns import own_nouns
 from viscotack.testing import check, checks
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.model.nouns import known, own_nouns
 from viscotack.model.problem import RoughCase
+from viscotack.model.problem.nouns import known, own_nouns
 from viscotack.result import Outcome
 from viscotack.result.curve import curve
 from viscotack.result.observables import pull_off, summary

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from viscotack.cards import Pairs, Quantity, cards, plausible
 from viscotack.errors import InputError, wrong_value
-from viscotack.model.nouns import Nouns, known
 from viscotack.units import parse
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter, ValidationError
+
+    from viscotack.model.problem.nouns import Nouns
 
 T = TypeVar("T")
 
@@ -37,6 +38,14 @@ _ELSEWHERE = {
 
 class UnknownNoun(InputError):
     """A table names an unknown law, material, shape or body."""
+
+
+def _known() -> "Nouns":
+    """Return the classes of this package."""
+    # known classes include materials, whose passports are read here
+    from viscotack.model.problem.nouns import known
+
+    return known()
 
 
 @dataclass(frozen=True)
@@ -61,7 +70,7 @@ class Reading:
     """
 
     where: str
-    nouns: Nouns = field(default_factory=known)
+    nouns: "Nouns" = field(default_factory=_known)
     beside: Callable[[str], Path] | None = None
     bare: bool = False
     units: Mapping[str, str] = field(default_factory=dict)

@@ -54,7 +54,7 @@ def app_command(
     with wrong_input():
         from viscotack.app.api import application as served
         from viscotack.app.engine.jobs import Engine, Limits
-        from viscotack.model.nouns import own_nouns
+        from viscotack.model.problem.nouns import own_nouns
 
         files = [str(Path(path).resolve()) for path in own or ()]
         also = own_nouns(files)

@@ -45,7 +45,7 @@ def carry_out(
     study : Path, optional
         File with the request, in whose folder its file names are.
     """
-    from viscotack.model.nouns import own_nouns
+    from viscotack.model.problem.nouns import own_nouns
 
     files = checked(files, force=force, as_json=as_json)
     wants = frozenset(output.name for output, file in files.items() if file is not None)

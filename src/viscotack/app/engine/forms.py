@@ -9,10 +9,10 @@ from typing import Any
 
 from viscotack.cards import Pairs, Quantity, cards
 from viscotack.model.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
-from viscotack.model.nouns import Nouns, known
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.case_file import ProfilePoint
 from viscotack.model.problem.law_table import STRENGTH
+from viscotack.model.problem.nouns import Nouns, known
 from viscotack.model.problem.protocol_table import STARTS
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
 from viscotack.model.traction import Tabulated

@@ -35,7 +35,7 @@ _also: tuple[Any, ...] = ()
 def _begin(line: Connection, own: tuple[str, ...], nice: int, warm: Callable[[], None]) -> None:
     """Prepare a process."""
     global _line, _also
-    from viscotack.model.nouns import own_nouns
+    from viscotack.model.problem.nouns import own_nouns
 
     _line, _also = line, own_nouns(own)
     warm()

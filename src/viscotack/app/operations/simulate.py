@@ -136,7 +136,7 @@ def saved(file: Path, caller: Caller) -> "Result":
 
 
 def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
-    from viscotack.model.nouns import known
+    from viscotack.model.problem.nouns import known
     from viscotack.plot import simulation as plot
     from viscotack.result import Outcome, write_csv
     from viscotack.result.cycles import write_cycles

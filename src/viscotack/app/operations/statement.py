@@ -14,8 +14,8 @@ from .request import Caller
 
 if TYPE_CHECKING:
     from viscotack.model.materials.passport import Passport
-    from viscotack.model.nouns import Nouns
     from viscotack.model.problem import Case
+    from viscotack.model.problem.nouns import Nouns
     from viscotack.model.tables import Reading
 
 # Keys of a statement by flags, and of one by a file.
@@ -77,7 +77,7 @@ def statement(given: Any, option: Contact, caller: Caller) -> Statement:
         given = {_CASE: given}
     if not isinstance(given, Mapping):
         return Statement(_checked(given, option))
-    from viscotack.model.nouns import known
+    from viscotack.model.problem.nouns import known
     from viscotack.model.tables import Reading
 
     nouns = known(caller.also)

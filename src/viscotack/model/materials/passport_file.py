@@ -35,7 +35,6 @@ _TIMES = {
     "fractional-zener": "tau0 is the retardation time",
 }
 _NOT_STATED = "not stated"
-_READING = Reading("the passport", bare=True)
 
 
 def write_passport(passport: Passport, path: Target) -> None:
@@ -184,7 +183,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
         )
     own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
     try:
-        return _passport(tables, {**MODELS, **own})
+        return _passport(tables, {**MODELS, **own}, Reading("the passport", bare=True))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         words = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error
         raise InputError(
@@ -193,7 +192,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
         ) from None
 
 
-def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
+def _passport(tables: Mapping[str, Any], models: Mapping[str, Any], reading: Reading) -> Passport:
     for name in tables:
         if name not in ("passport", "name", *_TABLES):
             raise InputError(f"unknown table [{name}]; allowed tables: {', '.join(_TABLES)}")
@@ -208,46 +207,46 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
     reference = temperature.get("reference")
     return Passport(
         name=str(tables.get("name", "")),
-        material=_material(tables.get("material"), models),
+        material=_material(tables.get("material"), models, reading),
         temperature=None if reference is None else parse(reference, "K"),
-        shift=_shift(temperature, "temperature") if "law" in temperature else None,
-        fitted_shift=_fitted(nearest) if nearest else None,
+        shift=_shift(temperature, "temperature", reading) if "law" in temperature else None,
+        fitted_shift=_fitted(nearest, reading) if nearest else None,
         temperatures=_span(temperature.get("measured"), "K"),
         frequencies=_span(tables.get("range", {}).get("angular_frequency"), "rad/s"),
         measured=None if measured == _NOT_STATED else measured,
-        origin=read_as(Origin, tables.get("origin", {}), _READING, "origin"),
+        origin=read_as(Origin, tables.get("origin", {}), reading, "origin"),
         evidence=(
-            read_as(Evidence, tables["evidence"], _READING, "evidence")
+            read_as(Evidence, tables["evidence"], reading, "evidence")
             if "evidence" in tables
             else None
         ),
-        allowed=tuple(_material(table, models) for table in tables.get("allowed", ())),
+        allowed=tuple(_material(table, models, reading) for table in tables.get("allowed", ())),
     )
 
 
-def _material(given: Any, models: Mapping[str, Any]) -> Material:
+def _material(given: Any, models: Mapping[str, Any], reading: Reading) -> Material:
     """Return the material of a table [material]; its model must be one of the given ones."""
-    table = _READING.given(given, "material")
-    kind = _READING.choice(table, "material", "model", models, OWN)
+    table = reading.given(given, "material")
+    kind = reading.choice(table, "material", "model", models, OWN)
     del table["model"]
-    return read_as(kind, table, _READING, "material")
+    return read_as(kind, table, reading, "material")
 
 
-def _shift(table: Mapping[str, Any], name: str) -> Shift:
+def _shift(table: Mapping[str, Any], name: str, reading: Reading) -> Shift:
     zero, law = parse(table["zero"], "K"), table["law"]
     if law == "table":
         rows = [(parse(T, "K"), float(value)) for T, value in table["shifts"]]
         temperature, values = zip(*rows, strict=True)
         more = {key: tuple(map(float, table.get(key, ()))) for key in ("uncertainty", "vertical")}
         return TabulatedShift(zero, temperature, values, **more)
-    kind = _READING.choice(table, name, "law", LAWS, '; law = "table" for one measured')
+    kind = reading.choice(table, name, "law", LAWS, '; law = "table" for one measured')
     others = ("law", "zero", "reference", "measured", "standard_error", "misfit")
     constants = {key: value for key, value in table.items() if key not in others}
-    return read_as(kind, constants | {"reference_temperature": zero}, _READING, name)
+    return read_as(kind, constants | {"reference_temperature": zero}, reading, name)
 
 
-def _fitted(table: Mapping[str, Any]) -> FittedShift:
-    law: Any = _shift(table, "nearest_law")
+def _fitted(table: Mapping[str, Any], reading: Reading) -> FittedShift:
+    law: Any = _shift(table, "nearest_law", reading)
     return FittedShift(law, tuple(map(float, table["standard_error"])), float(table["misfit"]))
 
 

@@ -34,9 +34,9 @@ from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport
 from viscotack.model.materials.scaling import scaled
 from viscotack.model.materials.words import word_of
-from viscotack.model.nouns import known
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.law_table import law_from_table, table_of_law
+from viscotack.model.problem.nouns import known
 from viscotack.model.problem.problem import Case, Groups, Problem
 from viscotack.model.problem.prony_file import read_prony
 from viscotack.model.problem.protocol_table import (

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.model.nouns import known
 from viscotack.model.problem.case_file import problem_of, tables_of
+from viscotack.model.problem.nouns import known
 from viscotack.model.problem.problem import Groups, Problem
 from viscotack.model.problem.rough_case import RoughCase
 from viscotack.model.tables import Reading

@@ -7,10 +7,10 @@ from typing import Any
 from viscotack.cards import Field, Pairs, Quantity, card_of, cards
 from viscotack.model.geometry import Bonded, Cone, HalfSpace, Layer, PowerLawProfile
 from viscotack.model.materials.constants import ModulusRatio
-from viscotack.model.nouns import known
 from viscotack.model.problem import plane
 from viscotack.model.problem.case_file import LayerTable, PassportTable, ProfilePoint
 from viscotack.model.problem.law_table import STRENGTH
+from viscotack.model.problem.nouns import known
 from viscotack.model.problem.problem import Groups
 from viscotack.model.problem.protocol_table import GroupsTable, ProtocolTable
 from viscotack.model.problem.rough_case import StatedSurface

@@ -11,8 +11,8 @@ from typing import Any, cast
 
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
-from viscotack.model.nouns import known
 from viscotack.model.problem import case_file
+from viscotack.model.problem.nouns import known
 from viscotack.model.problem.rough_case import RoughCase
 from viscotack.model.tables import Reading
 

@@ -34,8 +34,8 @@ def solid_of(given: "str | Passport", caller: Caller) -> "Passport | Material":
     if not isinstance(given, str) or not given.lstrip().startswith(TABLE):
         return passport_of(given, caller)
     from viscotack.files.toml import parse_toml
-    from viscotack.model.nouns import known
     from viscotack.model.problem.case_file import material_of
+    from viscotack.model.problem.nouns import known
     from viscotack.model.tables import Reading
 
     table = parse_toml(given, "the material").get("material")
@@ -64,8 +64,8 @@ class Reduced(Request):
     def solid(self, caller: Caller, usual: str = "power-law") -> "Material":
         """Return the solid; `usual` is the word of the material where none is said."""
         from viscotack.model.materials.passport import Passport
-        from viscotack.model.nouns import known
         from viscotack.model.problem.case_file import material_of
+        from viscotack.model.problem.nouns import known
         from viscotack.model.tables import Reading
 
         nouns, words = known(caller.also), self.material or usual
