@@ -9,6 +9,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.model.materials import Modes
 from viscotack.model.materials.interconversion import reciprocal
+from viscotack.theory.crack.steady._memory import mean_decay
 
 
 class Chain(NamedTuple):
@@ -21,8 +22,7 @@ class Chain(NamedTuple):
     def step(self, dt: float) -> tuple[Array, Array, Array, float]:
         """Return decay, weights of the old and the new e, and the compliance of a step."""
         x = dt / self.times
-        mean = np.where(x < 1e-8, 1 - x / 2, -np.expm1(-x) / np.maximum(x, 1e-300))
-        decay = np.exp(-x)
+        mean, decay = mean_decay(x), np.exp(-x)
         compliance = self.instantaneous + float(self.weights @ (1 - mean))
         return decay, mean - decay, 1 - mean, compliance
 

@@ -86,7 +86,7 @@ def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
     far = modes.instantaneous * mesh.far
     for weight, length in zip(modes.weights, modes.lengths, strict=True):
         step = mesh.dx / length
-        mean = _mean_decay(step)
+        mean = mean_decay(step)
         decay = np.exp(-np.minimum(distance / length, _FORGOTTEN))
         own += decay * (weight * np.append(1.0, 1 - mean))[earlier]
         before += decay * (weight * np.append(0.0, mean - np.exp(-step)))[earlier]
@@ -109,7 +109,7 @@ def closing_matrix(mesh: Mesh, modes: Lengths) -> Array:
     reached, kept_here = np.zeros(distance.size), np.zeros(size)
     for weight, length in zip(modes.weights, modes.lengths, strict=True):
         step = mesh.dx / length
-        kept = _mean_decay(step)
+        kept = mean_decay(step)
         decay = np.exp(-np.minimum(distance / length, _FORGOTTEN))
         reached += (weight * kept)[place] * decay * (-np.expm1(-step))[source]
         kept_here += weight * (1 - kept)
@@ -133,7 +133,7 @@ def closing_inflow(
     if not modes.lengths.size:
         return lambda amplitude: np.zeros(mesh.dx.size)
     l = modes.lengths[:, None]
-    shares = _mean_decay(mesh.dx / l) * np.exp(-(mesh.x[-1] - mesh.x[1:]) / l)
+    shares = mean_decay(mesh.dx / l) * np.exp(-(mesh.x[-1] - mesh.x[1:]) / l)
     gap = np.sqrt(mesh.x[-1] + _BEYOND * l)
     measure = np.exp(-_BEYOND) * _BEYOND * np.log(_BEYOND[1] / _BEYOND[0])
 
@@ -143,6 +143,6 @@ def closing_inflow(
     return inflow
 
 
-def _mean_decay(step: Array) -> Array:
+def mean_decay(step: Array) -> Array:
     """Return (1 - e^-y)/y."""
     return np.where(step < 1e-8, 1 - step / 2, -np.expm1(-step) / np.maximum(step, 1e-300))
