@@ -52,7 +52,7 @@ def test_glassy_modulus_and_time_are_checked(kind):
     [
         ([], "branches must be 1 to 10,000 pairs, .*Elastic"),
         (5e6, "branches must be pairs of numbers"),
-        ([(5e6, 0.0)], "a time of branches must be a positive"),
+        ([(5e6, 0.0)], "a time of branches must be positive"),
         ([(5e6, 1.0), (4e6, 2.0), (3e6, 1.0)], "times of branches must differ"),
     ],
 )

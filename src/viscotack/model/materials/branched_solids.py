@@ -20,6 +20,7 @@ from viscotack.model.materials.constants import (
 from viscotack.model.materials.interconversion import reciprocal
 from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import Modes, compressed, maxwell, voigt
+from viscotack.units import positive
 
 _MOST_BRANCHES = 10_000
 
@@ -252,8 +253,8 @@ def _sorted_branches(given: Any) -> tuple[tuple[float, float], ...]:
     pairs: list[tuple[float, float]] = []
     try:
         for modulus, time in given:
-            modulus = checks.positive("a modulus of branches", modulus, "Pa")
-            pairs.append((modulus, checks.positive("a time of branches", time, "s")))
+            modulus = positive("a modulus of branches", modulus, "Pa")
+            pairs.append((modulus, positive("a time of branches", time, "s")))
     except (TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise

@@ -1,23 +1,12 @@
 """Validation of the numbers and arrays given to a material, with error messages."""
 
-import math
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-
-
-def positive(name: str, value: float, unit: str) -> float:
-    """Validate a positive, finite number and return it as a float."""
-    number = _number(value)
-    if not 0 < number < math.inf:
-        raise InputError(
-            f"{name} must be a positive, finite number [{unit}], got {value!r}; give SI numbers"
-        )
-    return number
-
+from viscotack.units import positive
 
 POSSIBLE = 100.0, 1000.0  # K: temperatures of tests on polymers
 
@@ -78,13 +67,3 @@ def store(instance: Any, **checked: Any) -> None:
     """Set the validated fields of a frozen dataclass; only for its __post_init__."""
     for name, value in checked.items():
         object.__setattr__(instance, name, value)
-
-
-def _number(value: Any) -> float:
-    """Return a float, or nan for anything that is not a number (for text see units.parse)."""
-    if isinstance(value, (str, bytes)):
-        return math.nan
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        return math.nan

@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.model.materials import checks
 from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.model.materials.interconversion import reciprocal
 from viscotack.model.materials.material import Material
 from viscotack.model.materials.scaling import scaled
+from viscotack.units import positive
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,7 +146,7 @@ def prony_form(
     >>> len(form.material.branches), form.error < 3e-4
     (19, True)
     """
-    low, high = (checks.positive("a frequency", w, "rad/s") for w in frequencies)
+    low, high = (positive("a frequency", w, "rad/s") for w in frequencies)
     if not 0 < tolerance < 1:
         raise InputError(f"tolerance is relative and must lie between 0 and 1, got {tolerance:g}")
     if low >= high:
@@ -200,5 +200,5 @@ def slowed(material: Any, factor: float) -> Any:
     >>> slowed(solid, 100.0).tau0
     200.0
     """
-    a = checks.positive("factor", factor, "-")
+    a = positive("factor", factor, "-")
     return scaled(material, modulus=1.0, time=a)

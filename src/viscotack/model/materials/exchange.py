@@ -25,9 +25,8 @@ from scipy.constants import gas_constant
 
 from viscotack.errors import InputError
 from viscotack.model.materials.branched_solids import Prony
-from viscotack.model.materials.checks import positive
 from viscotack.model.materials.shift import WLF, Arrhenius, Shift
-from viscotack.units import parse
+from viscotack.units import parse, positive
 
 CODES = ("abaqus", "ansys", "comsol")
 # How each program marks a comment.
