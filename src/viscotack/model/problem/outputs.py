@@ -41,10 +41,6 @@ class Unit:
 Factor = Callable[[Any], float]
 
 
-def _as_it_is(groups: Any) -> float:
-    return 1.0
-
-
 @dataclass(frozen=True)
 class Series:
     """A column of a table: a series of a `Result`, its unit and a factor."""
@@ -52,7 +48,7 @@ class Series:
     source: str
     words: str
     unit: Unit
-    factor: Factor = _as_it_is
+    factor: Factor = lambda groups: 1.0
 
 
 @dataclass(frozen=True)
@@ -93,7 +89,7 @@ class Kind:
     cycles: Mapping[str, Series]
     units: Mapping[str, Unit]
     energy: Unit
-    energy_factor: Factor = _as_it_is
+    energy_factor: Factor = lambda groups: 1.0
 
     def of(self, source: str) -> Series:
         """Return the column of a series of a `Result`."""
@@ -192,22 +188,6 @@ DETAILED = replace(
 )
 
 
-def _tension(groups: Any) -> float:
-    return -1.0
-
-
-def _per_half_width(groups: Any) -> float:
-    return 1 / groups.geometry.half_width
-
-
-def _crack_speed(groups: Any) -> float:
-    return groups.fracture_length  # lengths of a Result are in a0
-
-
-def _per_work_of_adhesion(groups: Any) -> float:
-    return groups.traction.strength  # sigma_0 h_0 over Delta-gamma_0
-
-
 _STRESS = Unit("sigma0", r"$\sigma_0$", "stress", "Pa")
 _WIDTH = Unit("a", "$a$", "half_width", "m")
 _CRACK = Unit("h0/time unit", "$h_0$ per time unit", "crack_speed", "m/s")
@@ -217,9 +197,14 @@ PLANE = Kind(
     series={
         "time": Series("time", "time", _TIME),
         "depth": Series("depth", "depth", _LENGTH),
-        "stress": Series("force", "mean tension", _STRESS, _tension),
-        "ligament": Series("contact_radius", "ligament", _WIDTH, _per_half_width),
-        "crack_speed": Series("edge_speed", "crack speed", _CRACK, _crack_speed),
+        "stress": Series("force", "mean tension", _STRESS, lambda groups: -1.0),
+        "ligament": Series(
+            "contact_radius", "ligament", _WIDTH, lambda groups: 1 / groups.geometry.half_width
+        ),
+        # lengths of a Result are in a0
+        "crack_speed": Series(
+            "edge_speed", "crack speed", _CRACK, lambda groups: groups.fracture_length
+        ),
     },
     observables={
         "pull_off_stress": Output("pull-off stress", _STRESS),
@@ -245,5 +230,6 @@ PLANE = Kind(
         "1": _PURE,
     },
     energy=_ENERGY,
-    energy_factor=_per_work_of_adhesion,
+    # sigma_0 h_0 over Delta-gamma_0
+    energy_factor=lambda groups: groups.traction.strength,
 )
