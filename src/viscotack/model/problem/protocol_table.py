@@ -166,14 +166,8 @@ def test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
         start = STARTS_IN_GROUPS[starts[0]](getattr(table, starts[0]))
     except ValueError as error:
         raise InputError(f"{where} {error}", field="groups") from None
-    return {
-        "tabor": table.tabor,
-        "cohesion": table.cohesion,
-        "start": start,
-        "moves": moves,
-        "rate": table.rate,
-        "stiffness": table.stiffness,
-    }
+    numbers = ("tabor", "cohesion", "rate", "stiffness")
+    return {"start": start, "moves": moves, **{name: getattr(table, name) for name in numbers}}
 
 
 def table_of_groups(groups: Groups) -> dict[str, Any]:
