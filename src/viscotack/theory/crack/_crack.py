@@ -14,12 +14,13 @@ then inverted on the panels, at a cost independent of the number of modes.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.model.materials import Material
 from viscotack.theory._checks import Number, Values, at_least, plain
 
 Array = npt.NDArray[np.floating[Any]]
@@ -37,24 +38,6 @@ _TOLERANCE = 1e-14
 # A over the time of a mode above which the mode has responded; its square must not overflow.
 _RESPONDED = 1e150
 _BLOCK = 2**18
-
-
-class Material(Protocol):
-    """Attributes of a linear viscoelastic solid used by the crack theories."""
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Return E0 / Einf."""
-        ...
-
-    @property
-    def time_unit(self) -> float:
-        """Return the time [s] of dimensionless speeds."""
-        ...
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Any:
-        """Return the modes of the creep."""
-        ...
 
 
 class Passage(NamedTuple):

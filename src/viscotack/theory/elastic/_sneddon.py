@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.model.geometry import detail
+from viscotack.model.geometry import Shape, detail
 from viscotack.model.geometry.gauss import gauss
-from viscotack.theory._checks import Values
 
 # Exact to round-off for smooth profiles.
 _NODES = 64
@@ -21,14 +19,7 @@ _DETAILS, _MOST_PANELS = 1.0, 64
 _AT_ONCE = 1_000_000
 
 
-class Flank(Protocol):
-    """A profile with gap and slope."""
-
-    def gap(self, position: Values) -> Array: ...  # noqa: D102
-    def flank(self, position: Values) -> Array: ...  # noqa: D102
-
-
-def mean_slope(shape: Flank, a: npt.NDArray, power: int) -> npt.NDArray:
+def mean_slope(shape: Shape, a: npt.NDArray, power: int) -> npt.NDArray:
     """Return the integral of the slope over the angle, with a power of its sine."""
     angle, weight = angles(shape, float(np.max(a, initial=0.0)))
     sine = np.sin(angle)
@@ -39,12 +30,12 @@ def mean_slope(shape: Flank, a: npt.NDArray, power: int) -> npt.NDArray:
     return np.reshape(np.concatenate(means), np.shape(a))
 
 
-def half_space_depth(a: npt.NDArray, shape: Flank) -> npt.NDArray:
+def half_space_depth(a: npt.NDArray, shape: Shape) -> npt.NDArray:
     """Return the depth [m] of a contact of this radius [m] on a half-space without adhesion."""
     return a * mean_slope(shape, a, 0)
 
 
-def angles(shape: Flank, radius: float) -> tuple[Array, Array]:
+def angles(shape: Shape, radius: float) -> tuple[Array, Array]:
     """Return angles and weights for a contact of this radius at most."""
     panels = np.ceil(radius / (_DETAILS * detail(shape)))
     return _rule(int(np.clip(panels, 1, _MOST_PANELS)))

@@ -23,17 +23,17 @@ from typing import Any
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.model.geometry import Body, HalfSpace, Layer
+from viscotack.model.geometry import Body, HalfSpace, Layer, Shape
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.elastic import on_body, on_layer
 
-from ._sneddon import Flank, angles, half_space_depth, mean_slope
+from ._sneddon import angles, half_space_depth, mean_slope
 
 _HALF_SPACE = HalfSpace()
 _NO_ADHESION = "0 is no adhesion"
 
 
-def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE) -> Number:
+def bare_depth(contact_radius: Values, *, shape: Shape, body: Body = _HALF_SPACE) -> Number:
     """Return the depth [m] of a contact of this radius [m] without adhesion.
 
     Parameters
@@ -72,7 +72,7 @@ def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE
 def depth(
     contact_radius: Values,
     *,
-    shape: Flank,
+    shape: Shape,
     contact_modulus: float,
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
@@ -122,7 +122,7 @@ def depth(
 def drawn(
     contact_radius: Values,
     *,
-    shape: Flank,
+    shape: Shape,
     contact_modulus: float,
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
@@ -172,7 +172,7 @@ def drawn(
 def force(
     contact_radius: Values,
     *,
-    shape: Flank,
+    shape: Shape,
     contact_modulus: float,
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
@@ -268,7 +268,7 @@ def gap(
     position: Values,
     *,
     contact_radius: float,
-    shape: Flank,
+    shape: Shape,
     contact_modulus: float,
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,

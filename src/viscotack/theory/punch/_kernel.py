@@ -22,6 +22,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.geometry import Base, Bonded
+from viscotack.model.geometry.gauss import gauss
 from viscotack.theory._roots import halved
 
 # kappa differs from 1 - exp(-2u) by u^2 exp(-2u), negligible above this u.
@@ -108,10 +109,7 @@ def _decay(base: Base) -> float:
 def _smooth_kernel(longest: float, base: Base) -> Any:
     """Return the kernel without its logarithm as a spline of the distance in thicknesses."""
     panels = int(np.ceil(_CUT * (longest + 4) / 60)) + 2
-    nodes, weights = np.polynomial.legendre.leggauss(40)
-    width = _CUT / panels
-    u = (np.arange(panels)[:, None] * width + width / 2 * (nodes + 1)).ravel()
-    weights = np.tile(width / 2 * weights, panels)
+    u, weights = gauss(np.linspace(0.0, _CUT, panels + 1), 40)
     rest = weights * (base.transfer(u) - 1 + np.exp(-2 * u)) / u
     x = np.arange(-8, int(np.ceil(longest / _SPACING)) + 9) * _SPACING
     values = np.log(x**2 + 4) / 2 + np.cos(np.multiply.outer(x, u)) @ rest
