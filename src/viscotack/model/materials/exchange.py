@@ -61,13 +61,12 @@ class Units:
     @property
     def pascal(self) -> float:
         """The unit of pressure in Pa."""
-        # avoid importing the units library for SI
-        return 1.0 if self.pressure == "Pa" else parse(f"1 {self.pressure}", "Pa")
+        return parse(f"1 {self.pressure}", "Pa")
 
     @property
     def second(self) -> float:
         """The unit of time in s."""
-        return 1.0 if self.time == "s" else parse(f"1 {self.time}", "s")
+        return parse(f"1 {self.time}", "s")
 
     def words(self) -> str:
         """Return the comment that states the units."""
