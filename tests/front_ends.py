@@ -20,7 +20,6 @@ from viscotack.app.operations import ask, operation
 from viscotack.app.operations.options import Contact, Rows, flag_of, option_of
 from viscotack.app.operations.parts.json_data import plain
 from viscotack.files.toml import toml_value
-from viscotack.model.problem.nouns import own_nouns
 
 # What two runs of one question do not share.
 OF_A_RUN = ("wall_time_s",)

@@ -8,7 +8,6 @@ import pytest
 
 import viscotack as vt
 from dimensionless import SOLID
-from viscotack.model.nouns import own_nouns
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.prediction.simulation import SIMULATION
 from viscotack.prediction.tiers import TIERS

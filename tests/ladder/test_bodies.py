@@ -8,7 +8,6 @@ from scipy.optimize import brentq
 
 import viscotack as vt
 from dimensionless import ELASTIC
-from viscotack.model.nouns import own_nouns
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.simulate.settings import Settings
 from viscotack.theory.elastic import indenter, on_body
