@@ -1,18 +1,18 @@
 """Dugdale law: constant tension over a range, smoothed for numerical contact."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Checked, Quantity
-from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
+from viscotack.cards import Quantity
+from viscotack.model.traction.law import LawOfGap, checked_gap
 
 
 @dataclass(frozen=True)
-class Dugdale(Checked):
+class Dugdale(LawOfGap):
     r"""Dugdale law: constant tension over a finite range, with a stiff wall at contact.
 
     With :math:`u = h/h_0` the ideal law has the tension
@@ -55,8 +55,6 @@ class Dugdale(Checked):
 
     word: ClassVar[str] = "dugdale"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
     rise: Annotated[
         float, Quantity("1", "r", "width over h0 of the rise of the tension", above=0, most=0.5)
     ] = 1e-4
@@ -109,10 +107,6 @@ class Dugdale(Checked):
     def edge_gap(self) -> float:
         """Gap at which the tension is first constant [m]; defines the contact edge."""
         return (1 + self.rise) * self.equilibrium_gap
-
-    def reduced(self) -> "Dugdale":
-        """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
-        return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
 
     @property
     def _end(self) -> float:

@@ -1,17 +1,17 @@
 """Exponential law: adhesion that decays over an independent length."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Checked, Quantity
-from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
+from viscotack.cards import Quantity
+from viscotack.model.traction.law import LawOfGap, checked_gap
 
 
 @dataclass(frozen=True)
-class Exponential(Checked):
+class Exponential(LawOfGap):
     r"""Exponential law: linear near the equilibrium gap, with an exponential tail.
 
     With the decay length :math:`\ell = d\,h_0`
@@ -47,8 +47,6 @@ class Exponential(Checked):
 
     word: ClassVar[str] = "exponential"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
     decay: Annotated[float, Quantity("1", "d", "decay length over h0", above=0, example="0.25")]
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -92,10 +90,6 @@ class Exponential(Checked):
     def edge_gap(self) -> float:
         """Gap of the largest tension [m], h_0 + l; defines the contact edge."""
         return self.equilibrium_gap + self._length
-
-    def reduced(self) -> "Exponential":
-        """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
-        return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
 
     @property
     def _length(self) -> float:

@@ -1,12 +1,13 @@
 """Protocol of traction laws, and measures of their range."""
 
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Annotated, Any, Protocol, runtime_checkable
+from typing import Annotated, Any, Protocol, Self, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Quantity
+from viscotack.cards import Checked, Quantity
 from viscotack.errors import InputError
 
 WorkOfAdhesion = Annotated[
@@ -60,6 +61,18 @@ class Traction(Protocol):
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
     def stiffness(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
     def reduced(self) -> "Traction": ...  # noqa: D102
+
+
+@dataclass(frozen=True)
+class LawOfGap(Checked):
+    """Constants of a law of the gap alone, and the same law without dimensions."""
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
+
+    def reduced(self) -> Self:
+        """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
+        return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
 
 
 def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:

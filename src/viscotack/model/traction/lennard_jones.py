@@ -6,12 +6,11 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Checked
-from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
+from viscotack.model.traction.law import LawOfGap, checked_gap
 
 
 @dataclass(frozen=True)
-class LennardJones(Checked):
+class LennardJones(LawOfGap):
     r"""Lennard-Jones 3-9 law: attraction between half-spaces and a steep repulsion.
 
     .. math:: \sigma(h) = \frac{8 \Delta\gamma_0}{3 h_0}
@@ -41,9 +40,6 @@ class LennardJones(Checked):
     """
 
     word: ClassVar[str] = "lennard-jones"
-
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""
@@ -94,10 +90,6 @@ class LennardJones(Checked):
     def edge_gap(self) -> float:
         """Gap of the largest tension [m], 3^(1/6) h_0; defines the contact edge."""
         return 3 ** (1 / 6) * self.equilibrium_gap
-
-    def reduced(self) -> "LennardJones":
-        """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
-        return LennardJones(1.0, 1.0)
 
     def _inverse_gap(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         return self.equilibrium_gap / checked_gap(gap)

@@ -1,6 +1,6 @@
 """Traction law from a table, measured or computed by another program."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar, NamedTuple
@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy
 
-from viscotack.cards import conform
 from viscotack.errors import InputError
-from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
+from viscotack.model.traction.law import LawOfGap, checked_gap
 
 # Tolerance of the table's work and zero.
 _ROUND_OFF = 1e-9
@@ -20,7 +19,7 @@ _MOST_POINTS = 10_000
 
 
 @dataclass(frozen=True)
-class Tabulated:
+class Tabulated(LawOfGap):
     r"""Traction law through points, monotone between them (no artificial extrema).
 
     The traction is the piecewise cubic of Fritsch and Carlson, its energy the exact integral. It is
@@ -58,12 +57,10 @@ class Tabulated:
 
     word: ClassVar[str] = "table"
 
-    work_of_adhesion: WorkOfAdhesion
-    equilibrium_gap: EquilibriumGap
     points: tuple[tuple[float, float], ...]
 
     def __post_init__(self) -> None:
-        conform(self)
+        super().__post_init__()
         _check_number(len(self.points))
         points = tuple((float(gap), float(traction)) for gap, traction in self.points)
         object.__setattr__(self, "points", points)
@@ -130,10 +127,6 @@ class Tabulated:
         """Gap of the largest tension [m]; defines the contact edge."""
         gap, _ = max(self.points, key=lambda point: point[1])
         return gap * self.equilibrium_gap
-
-    def reduced(self) -> "Tabulated":
-        """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
-        return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
 
     def _within(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return gaps over h_0, limited to the end of the table, where the traction is zero."""
