@@ -246,7 +246,7 @@ def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
     hints = get_type_hints(noun, include_extras=True)
     found = {}
     for field in fields(noun):
-        card = _card(hints[field.name], kind)
+        card = card_of(hints[field.name], kind)
         if card is not None:
             found[field.name] = Field(
                 field.name, card, field.default, optional=type(None) in get_args(hints[field.name])
@@ -278,16 +278,12 @@ def with_units(noun: Any) -> dict[str, Any]:
     return found
 
 
-def card_of(annotation: Any) -> Quantity:
-    """Return the card of an annotated number that is not a field, such as a modulus ratio."""
-    return _card(annotation, Quantity)
-
-
-def _card(hint: Any, kind: type) -> Any:
-    if get_origin(hint) is Annotated:
-        return next((x for x in hint.__metadata__ if isinstance(x, kind)), None)
-    if get_origin(hint) in (Union, types.UnionType):
-        return next((card for part in get_args(hint) if (card := _card(part, kind))), None)
+def card_of(annotation: Any, kind: type = Quantity) -> Any:
+    """Return the card of an annotated number, such as a modulus ratio; None without one."""
+    if get_origin(annotation) is Annotated:
+        return next((x for x in annotation.__metadata__ if isinstance(x, kind)), None)
+    if get_origin(annotation) in (Union, types.UnionType):
+        return next((card for x in get_args(annotation) if (card := card_of(x, kind))), None)
     return None
 
 
