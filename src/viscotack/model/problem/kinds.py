@@ -1,9 +1,9 @@
 """Kinds of cases: the columns of a plan that define a case, and the problem built from them.
 
 A kind is a row of numbers with names. ``"sphere"`` has those of ``viscotack simulate sphere``
-(power law), ``"profile"`` those of a cone or power-law tip, ``"solid"`` those of a sphere on one of
-many random solids, ``"punch"`` those of a punch on a layer of a standard solid; with
-``problem = "FILE.toml"`` any number of that problem in SI is an input, named by its path.
+(power law), ``"solid"`` those of a sphere on one of many random solids, ``"punch"`` those of a
+punch on a layer of a standard solid; with ``problem = "FILE.toml"`` any number of that problem in
+SI is an input, named by its path.
 """
 
 import re
@@ -20,7 +20,8 @@ from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.materials.random_solids import LAST, random_solid
 from viscotack.model.problem import Groups, Problem, RoughCase, plane, revolution
 from viscotack.model.problem.inputs import Input, changed, check_exponent, check_paths, inputs_of
-from viscotack.model.protocol import AtDepth, AtForce, AtRadius
+from viscotack.model.problem.protocol_table import STARTS_IN_GROUPS
+from viscotack.model.protocol import Apart
 
 Inputs = Mapping[str, float]
 
@@ -63,12 +64,7 @@ class Kind:
             )
 
 
-_STARTS: dict[str, Any] = {
-    "preload": AtDepth,
-    "preload_force": AtForce,
-    "preload_radius": AtRadius,
-}
-
+_STARTS = {key: kind for key, kind in STARTS_IN_GROUPS.items() if kind is not Apart}
 
 _UNIT: dict[str, Any] = {"rubbery_modulus": 1.0, "tau0": 1.0, "poisson_ratio": 0.0}
 # Kind -> its solid of a row and a modulus ratio, its inputs, and its starts.
