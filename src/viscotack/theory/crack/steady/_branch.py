@@ -18,7 +18,7 @@ from viscotack.model.materials import Modes
 from viscotack.threads import one_blas_thread
 
 from ._balance import Law, Solution, System, solved
-from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, curve, stated
+from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, between, curve, stated
 from ._memory import closing_inflow, closing_matrix, lengths_of, opening_matrix
 from ._mesh import Mesh
 
@@ -29,8 +29,6 @@ _SHORTEST_STEP = STEP / 64
 _SLOW, _SLOWER = 0.03, 12
 # ln of the odds at which the crack is glassy; and largest number of computed speeds.
 _GLASSY, _MOST = np.log(2e3), 400
-# Points of the inverse between two computed speeds.
-_FINE = 16
 
 
 def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
@@ -137,8 +135,7 @@ class Branch:
         if self._failed and self._odds[above] < highest:
             raise InputError(self._failed)
         self._reach(max(self._log_speed[above], self._first))
-        x = np.array(self._log_speed)
-        grid = np.interp(np.arange(_FINE * (x.size - 1) + 1) / _FINE, np.arange(x.size), x)
+        grid = between(np.array(self._log_speed))
         # the odds increase; a decreasing curve is caused by round-off at the ends
         y = np.maximum.accumulate(self._between()(grid))
         inside = np.interp(odds, y, grid)

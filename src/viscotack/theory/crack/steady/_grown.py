@@ -31,7 +31,7 @@ from viscotack.model.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
 from ._branch import STEP, walked
-from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, curve, stated
+from ._knots import AHEAD, AHEAD_FOR_ERROR, FINE, alone, between, curve, stated
 from ._mesh import Mesh
 
 # Gamma - 1 of the first and the last computed crack, and largest number of cracks.
@@ -40,8 +40,6 @@ _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
 _ENOUGH = 4.0
 # Weights of the last cracks in the next one, cubic in ln y.
 _BEHIND = np.array([-1.0, 4.0, -6.0, 4.0])
-# Points of the inverse between two computed speeds.
-_FINE = 16
 
 
 class Grown:
@@ -130,8 +128,7 @@ class Grown:
         """
         self._reach(speed=log_speed)
         speed, _, _ = self._curves()
-        places = np.interp(np.arange(speed.size) / _FINE, np.arange(len(self._log_y)), self._log_y)
-        y = float(np.interp(log_speed, speed, places))
+        y = float(np.interp(log_speed, speed, between(np.array(self._log_y))))
         i = int(np.argmin(np.abs(np.array(self._log_y) - y)))
         work = float(np.exp(y - log_speed))
         found = solved(self._system(y, work), self._cracks[i].u)
@@ -245,7 +242,7 @@ class Grown:
         """Return ln of speeds and of Gamma - 1, both increasing, and the interface energies."""
         if self._table is None or self._table[0] != len(self._log_y):
             y = np.array(self._log_y)
-            fine = np.interp(np.arange(_FINE * (y.size - 1) + 1) / _FINE, np.arange(y.size), y)
+            fine = between(y)
             speed = fine - curve(y, np.array(self._log_work))(fine)
             gained = curve(y, np.array(self._log_gained))(fine)
             rising = np.maximum.accumulate(speed), np.maximum.accumulate(gained)
@@ -256,4 +253,4 @@ class Grown:
 
 def _first_slope(speed: Array, gained: Array) -> float:
     """Return the slope between the first two cracks, whose small Gamma - 1 is not smooth."""
-    return float((gained[_FINE] - gained[0]) / (speed[_FINE] - speed[0]))
+    return float((gained[FINE] - gained[0]) / (speed[FINE] - speed[0]))

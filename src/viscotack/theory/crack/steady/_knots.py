@@ -36,6 +36,8 @@ _SLOPES = (
 # Stated multiple of the leading term of the interpolation error, and the knots on either side
 # from which the largest is taken.
 _STATED, _NEAR = 4, 3
+# Points of an inverse between two knots.
+FINE = 16
 # One thread at a time computes further cracks. Not in the objects, which can be pickled.
 _LOCK = RLock()
 
@@ -49,6 +51,12 @@ def alone(method: Callable[..., Any]) -> Callable[..., Any]:
             return method(*arguments, **options)
 
     return locked
+
+
+def between(x: Array) -> Array:
+    """Return 16 points from each knot to the next, and the last knot."""
+    place = np.arange(FINE * (x.size - 1) + 1) / FINE
+    return np.interp(place, np.arange(x.size), x)
 
 
 def curve(x: Array, y: Array) -> Any:

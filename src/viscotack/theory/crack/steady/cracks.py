@@ -232,8 +232,7 @@ class SteadyCrack:
 
         over the elastic crack: a constant of the law times the mean retardation time of the solid.
         """
-        mean_time = float(np.dot(self.modes.weights, self.modes.times))
-        return mean_time * _slow_of(self._elastic, self._grid)
+        return _slow_of(self._elastic, self._grid, self.modes)
 
     @cached_property
     def modes(self) -> Modes:
@@ -394,7 +393,7 @@ def _elastic_of(law: Traction, modulus_ratio: float) -> Solution:
 def _branch_of(law: Traction, modes: Modes, sign: int) -> _branch.Branch:
     start = _kept(_elastic_of, law, modes.instantaneous)
     grid = _grid_of(law, modes.instantaneous)
-    slow = float(np.dot(modes.weights, modes.times)) * _slow_of(start, grid)
+    slow = _slow_of(start, grid, modes)
     return _branch.Branch(grid, _start.pinned(law), modes, start, slow, sign)
 
 
@@ -413,11 +412,12 @@ def _opening_of(law: Traction, modes: Modes, log_speed: float) -> Array:
     return opening_matrix(grid, lengths_of(grid, modes, float(np.exp(log_speed))))
 
 
-def _slow_of(elastic: Solution, grid: _mesh.Mesh) -> float:
-    """Return the integral of -sigma' w'^2 dx over the elastic crack.
+def _slow_of(elastic: Solution, grid: _mesh.Mesh, modes: Modes) -> float:
+    """Return s of the slowest cracks, the mean time times the integral of -sigma' w'^2 dx.
 
     The prime of sigma is its derivative by w, that of w its derivative by x; so the integrand is
     -(d sigma/dx)(dw/dx).
     """
     slope = np.diff(elastic.gap) / grid.dx
-    return -float(np.sum(np.diff(elastic.traction) * (slope[1:] + slope[:-1]) / 2))
+    mean_time = float(np.dot(modes.weights, modes.times))
+    return -mean_time * float(np.sum(np.diff(elastic.traction) * (slope[1:] + slope[:-1]) / 2))
