@@ -154,7 +154,7 @@ def retraction(
     d0 = depth / height
     # edge speed in the scale of contact radius per scale of depth travelled
     unit = law.speed_unit / length * height / r
-    log_speed = _log_speed(law)
+    log_speed = _log_speed(law.reduced())
     # a slower edge is in equilibrium within _FIRST, and would only make the problem stiffer
     unit = min(unit, math.exp(-log_speed(math.log(_FIRST))))
 
@@ -206,15 +206,10 @@ def retraction(
     )
 
 
-def _log_speed(law: CrackLaw) -> Callable[[float], float]:
-    """Return ln of the dimensionless speed as a function of ln(Gamma - 1), tabulated once."""
-    return _tabulated(law.reduced())
-
-
 # cached: half of the work, and the same for every load, speed and size
 @lru_cache(maxsize=32)
-def _tabulated(law: CrackLaw) -> Callable[[float], float]:
-    """Tabulate that function for a law with dimensionless speeds."""
+def _log_speed(law: CrackLaw) -> Callable[[float], float]:
+    """Tabulate ln of the speed as a function of ln(Gamma - 1), of a law without dimensions."""
     k = law.material.modulus_ratio
     speeds, odds = _table(law)
     spline = scipy.interpolate.CubicSpline(odds, speeds)
