@@ -15,7 +15,7 @@ converting groups to SI needs four scales. Source: Maghami, PhD thesis (2025), E
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,14 +26,14 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Body, FlatPunch, HalfSpace, Shape, Sphere, numbers
 from viscotack.model.materials import Material
 from viscotack.model.materials.constants import poisson_ratio as checked_poisson_ratio
+from viscotack.model.materials.scaling import scaled
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.outputs import Kind
 from viscotack.model.problem.plane import PunchScales
 from viscotack.model.problem.revolution import Scales
-from viscotack.model.problem.units import material_in_si
 from viscotack.model.protocol import Apart, Move, Retraction, Start, Units, check_moves
 from viscotack.model.traction import LennardJones, Traction, effective_range
-from viscotack.model.traction.resting import reduced, scaled
+from viscotack.model.traction.resting import in_si, reduced
 from viscotack.units import positive
 
 Tabor = Annotated[
@@ -169,7 +169,7 @@ class Problem(_OfKind):
     @property
     def tabor(self) -> float:
         """Tabor number mu of a shape of revolution: deformation over range of the forces."""
-        return revolution.tabor_number(self.radius, self.material, self.traction)
+        return revolution.tabor_number(self)
 
     @cached_property
     def radius(self) -> float:
@@ -406,9 +406,10 @@ class Groups(_OfKind):
         units = Units(unit.length, unit.force, unit.contact_radius, T)
         test = Retraction(self.start, self.rate, self.moves, self.stiffness)
         shape = self.geometry.reduced(1 / unit.along, 1 / unit.height)
+        material = scaled(self.material, modulus=E * (1 - nu**2), time=T)
         return Problem(
-            material=material_in_si(self.material, E * (1 - nu**2), T, nu),
-            traction=scaled(self.traction, unit.work, unit.length, T),
+            material=replace(material, poisson_ratio=nu),
+            traction=in_si(self.traction, unit.work, unit.length, T),
             # keep the radius of a sphere exact
             geometry=Sphere(radius) if isinstance(shape, Sphere) and radius else shape,
             body=self.body.reduced(1 / unit.along),

@@ -25,12 +25,10 @@ import scipy
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Disc, Layer, detail, end, equivalent_radius
-from viscotack.model.materials import Material
 from viscotack.model.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.model.problem.units import InSI, time_unit
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Units, states
 from viscotack.model.protocol.words import SPHERE_UNITS
-from viscotack.model.traction import Traction
 from viscotack.theory.elastic import indenter, on_layer
 from viscotack.units import positive
 
@@ -104,10 +102,10 @@ def radius_of(problem: Any) -> float:
     return equivalent_radius(problem.geometry, adhesion)
 
 
-def tabor_number(radius: float, material: Material, traction: Traction) -> float:
-    """Return the Tabor number of a sphere of this radius [m]."""
-    w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
-    return (radius * w**2 / (material.contact_modulus**2 * h0**3)) ** (1 / 3)
+def tabor_number(problem: Any) -> float:
+    """Return the Tabor number of a problem."""
+    w, h0 = problem.traction.work_of_adhesion, problem.traction.equilibrium_gap
+    return (problem.radius * w**2 / (problem.material.contact_modulus**2 * h0**3)) ** (1 / 3)
 
 
 def lengths(problem: Any) -> tuple[float, float]:

@@ -1,10 +1,9 @@
-"""The units of a problem; and from a reduced material to SI, by the units on its cards."""
+"""The units of a problem."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from viscotack.model.materials import Elastic
-from viscotack.model.materials.scaling import scaled
 from viscotack.model.traction import has_rest
 
 
@@ -43,14 +42,3 @@ def time_unit(material: Any, traction: Any) -> float:
     if isinstance(material, Elastic) and has_rest(traction):
         return traction.own_time
     return material.time_unit
-
-
-def material_in_si(material: Any, modulus: float, time: float, poisson_ratio: float) -> Any:
-    """Return a reduced material with its moduli and times multiplied by these [Pa], [s].
-
-    Raises
-    ------
-    ValueError
-        As :func:`viscotack.model.materials.scaling.scaled`.
-    """
-    return replace(scaled(material, modulus=modulus, time=time), poisson_ratio=poisson_ratio)

@@ -150,7 +150,7 @@ def reduced(law: Any, time_unit: float) -> Any:
     return law.reduced(time_unit) if isinstance(law, OverRest) else law.reduced()
 
 
-def scaled(law: Any, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Any:
+def in_si(law: Any, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Any:
     """Convert a reduced law to SI."""
     if isinstance(law, OverRest):
         return law.scaled(work_of_adhesion, equilibrium_gap, positive("time_unit", time_unit, "s"))
