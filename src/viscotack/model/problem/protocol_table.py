@@ -1,6 +1,6 @@
 """Tests as tables: [protocol] of a problem in SI, [groups] of a dimensionless one."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -123,20 +123,22 @@ def protocol_from_table(given: Any, reading: Reading, equilibrium_gap: float) ->
 
 def _start(table: ProtocolTable, units: Mapping[str, str]) -> Start | Apart:
     starts = STARTS[units["force"]]
-    given = [key for key in (*STARTS["N"], "preload_stress", "start") if _is_given(table, key)]
-    if len(given) != 1 or given[0] not in (*starts, "start"):
-        raise InputError(
-            f"needs exactly one of {', '.join((*starts, 'start'))}, got "
-            f"{' and '.join(given) or 'none'}; "
-            'write for example preload_depth = "2 um", or start = "apart 20 um"'
-        )
+    example = '; write for example preload_depth = "2 um", or start = "apart 20 um"'
+    key = _only(table, (*STARTS["N"], *STARTS["Pa"], "start"), (*starts, "start"), example)
     if table.start is not None:
         return start_from_words(table.start, units)
-    return starts[given[0]](getattr(table, given[0]))
+    return starts[key](getattr(table, key))
 
 
-def _is_given(table: Any, key: str) -> bool:
-    return getattr(table, key) is not None
+def _only(table: Any, keys: Iterable[str], possible: Iterable[str], example: str = "") -> str:
+    """Return the key of the start that a table states; InputError unless it is a single one."""
+    given = [key for key in dict.fromkeys(keys) if getattr(table, key) is not None]
+    if len(given) != 1 or given[0] not in possible:
+        raise InputError(
+            f"needs exactly one of {', '.join(possible)}, got "
+            f"{' and '.join(given) or 'none'}{example}"
+        )
+    return given[0]
 
 
 def table_of_protocol(test: Retraction, units: Mapping[str, str]) -> dict[str, Any]:
@@ -154,16 +156,10 @@ def test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
     """Return the numbers and the test of the table [groups], as arguments of Groups."""
     table = read_as(GroupsTable, given, reading, "groups")
     where = f"{reading.where}, [groups]"
-    starts = [key for key in STARTS_IN_GROUPS if _is_given(table, key)]
-    if len(starts) != 1:
-        raise InputError(
-            f"{where} needs exactly one of {', '.join(STARTS_IN_GROUPS)}, got "
-            f"{' and '.join(starts) or 'none'}",
-            field="groups",
-        )
     try:
+        key = _only(table, STARTS_IN_GROUPS, STARTS_IN_GROUPS)
         moves = tuple(move_from_words(move, PURE_NUMBERS) for move in table.moves)
-        start = STARTS_IN_GROUPS[starts[0]](getattr(table, starts[0]))
+        start = STARTS_IN_GROUPS[key](getattr(table, key))
     except ValueError as error:
         raise InputError(f"{where} {error}", field="groups") from None
     numbers = ("tabor", "cohesion", "rate", "stiffness")
