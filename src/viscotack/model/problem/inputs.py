@@ -156,11 +156,7 @@ def check_paths(problem: Any, paths: Iterable[str]) -> None:
         raise InputError(f"{_HEIGHT} and {_AT_RADIUS} go together; add {missing.pop()}")
     if _HEIGHT in paths and _COEFFICIENT in paths:
         raise InputError(f"{_COEFFICIENT} and {_HEIGHT} define the same; remove one")
-
-
-def check_exponent(problem: Any, paths: Iterable[str]) -> None:
-    """Refuse to vary the exponent of a tip in SI beside a coefficient whose unit it changes."""
-    paths = set(paths)
+    # the unit of the coefficient of a tip in SI depends on its exponent
     if isinstance(problem, Problem) and _EXPONENT in paths and not {_HEIGHT, _COEFFICIENT} & paths:
         raise InputError(
             f"{_COEFFICIENT} is measured in m^(1 - exponent), and is another shape with every "

@@ -19,7 +19,7 @@ from viscotack.model.materials import RetardationPowerLaw, StandardSolid
 from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.materials.random_solids import LAST, random_solid
 from viscotack.model.problem import Groups, Problem, RoughCase, plane, revolution
-from viscotack.model.problem.inputs import Input, changed, check_exponent, check_paths, inputs_of
+from viscotack.model.problem.inputs import Input, changed, check_paths, inputs_of
 from viscotack.model.problem.protocol_table import STARTS_IN_GROUPS
 from viscotack.model.protocol import Apart
 
@@ -188,7 +188,6 @@ def kind_of_problem(base: Any, names: set[str]) -> Kind:
     AtDepth(depth=20.0)
     """
     check_paths(base, names)
-    check_exponent(base, names)
     return Kind(
         name="problem",
         columns=tuple(sorted(names)),
