@@ -15,9 +15,8 @@ from viscotack.model.protocol import (
     Move,
     Retraction,
     Start,
-    check_number_of_moves,
 )
-from viscotack.model.protocol.moves import Speed, Stiffness
+from viscotack.model.protocol.moves import Speed, Stiffness, check_number_of_moves
 from viscotack.model.protocol.words import (
     PURE_NUMBERS,
     history_from_file,

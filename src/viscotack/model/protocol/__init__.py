@@ -1,8 +1,6 @@
 """Loading protocols: the state at rest at the start, moves of the machine, and the retraction."""
 
 from .moves import (
-    HOLDS,
-    MOST_MOVES,
     Apart,
     Approach,
     AtDepth,
@@ -16,8 +14,6 @@ from .moves import (
     Retraction,
     Start,
     Units,
-    check_moves,
-    check_number_of_moves,
     states,
 )
 
@@ -28,8 +24,6 @@ __all__ = [
     "AtForce",
     "AtRadius",
     "Dwell",
-    "HOLDS",
-    "MOST_MOVES",
     "LoadTo",
     "Move",
     "MoveTo",
@@ -37,7 +31,5 @@ __all__ = [
     "Retraction",
     "Start",
     "Units",
-    "check_moves",
-    "check_number_of_moves",
     "states",
 ]

@@ -12,7 +12,7 @@ from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.units import parse
 
-from . import (
+from .moves import (
     HOLDS,
     MOST_MOVES,
     Apart,
