@@ -42,10 +42,11 @@ def sweeps(file: LabFile, tables: Sequence[Table], given: Options) -> FrequencyS
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
         columns = MaterialColumns(file, table, given)
-        if not table.rows or not form_of(columns):
+        form = form_of(columns)
+        if not table.rows or form is None:
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
-        part = _part(columns)
+        part = _part(columns, form)
         if _repeats_one_state(part, len(tables)):
             states.append(columns)
             notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
@@ -87,20 +88,15 @@ def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
     return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: MaterialColumns) -> FrequencySweeps:
-    """Return the sweeps of one table."""
-    form = form_of(columns)
-    assert form is not None, "checked by the caller"
+def _part(columns: MaterialColumns, form: tuple[str, str]) -> FrequencySweeps:
+    """Return the sweeps of one table, from the two columns that determine its moduli."""
     if "viscosity" in form[0] and columns.kind(*form) is None and columns.options.kind is None:
         columns.options = replace(columns.options, kind="G")
         columns.notes.append(f'"{columns.name(form[0])}" is taken as a viscosity in shear')
     frequency = () if "angular_frequency" in columns else ("frequency",)
     kind = kind_of(columns, form, "temperature", *frequency)
     omega = columns.angular_frequency()
-    values: dict[str, Any] = {
-        "temperature": temperatures(columns),
-        "angular_frequency": omega,
-    }
+    values: dict[str, Any] = {"temperature": temperatures(columns), "angular_frequency": omega}
     values["storage"], values["loss"] = _moduli(columns, form, omega)
     kelvins = np.nan_to_num(np.round(values["temperature"]))
     columns.states = list(zip(kelvins, np.round(100 * np.log(omega)), strict=True))
