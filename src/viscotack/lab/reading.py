@@ -98,17 +98,9 @@ def read(
         raise file.error(
             "the file contains a relaxation and a creep test; set --test relaxation or --test creep"
         )
-    if "relaxation" in tests:
-        return _over_time(RelaxationTest, opened)
-    return _over_time(CreepTest, opened)
-
-
-def _over_time(
-    kind: type[assembly.Test], opened: "Sequence[_Opened]"
-) -> assembly.Test | tuple[assembly.Test, ...]:
-    """Return the test of a kind, or several by temperature."""
-    read = [test for one in opened for test in assembly.tests(kind, *one)]
-    found = tuple(sorted(read, key=lambda test: test.temperature or 0.0))
+    kind: Any = RelaxationTest if "relaxation" in tests else CreepTest
+    steps = [step for one in opened for step in assembly.tests(kind, *one)]
+    found = tuple(sorted(steps, key=lambda step: step.temperature or 0.0))
     return found[0] if len(found) == 1 else found
 
 
