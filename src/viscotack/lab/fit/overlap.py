@@ -81,6 +81,10 @@ class Curve:
         """Select points."""
         return Curve(self.x[points], tuple(y[points] for y in self.y))
 
+    def moved(self, along: float, up: float) -> "Curve":
+        """Return the curve shifted by decades of frequency and of the moduli."""
+        return Curve(self.x + along, tuple(y + up for y in self.y))
+
 
 def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
     """Fit the displacement of the hotter curve along log10 of frequency to its colder neighbour.
@@ -96,7 +100,7 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
     ValueError
         If the curves fit best end to end, so that the data do not determine the shift.
     """
-    hotter = Curve(hotter.x, tuple(y + hold.expected for y in hotter.y))
+    hotter = hotter.moved(0.0, hold.expected)
     found, degree = _found(colder, hotter, hold)
     pair = _pair(colder, hotter, np.array([found]), hold, hold.spread > 0, degree)
     variance, _, both = _variances(pair)
@@ -152,7 +156,7 @@ def vertical_at(colder: Curve, hotter: Curve, shift: float, hold: Hold) -> float
     """Return the best vertical shift at a known horizontal shift."""
     if not hold.free:
         return hold.expected
-    hotter = Curve(hotter.x, tuple(y + hold.expected for y in hotter.y))
+    hotter = hotter.moved(0.0, hold.expected)
     at = np.array([shift])
     pairs = [_pair(colder, hotter, at, hold, True, degree) for degree in _DEGREES]
     pair = min(pairs, key=lambda each: float(_costs(each, _ROUNDS)[0]))

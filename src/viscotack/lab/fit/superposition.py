@@ -68,10 +68,7 @@ def superposition(sweeps: FrequencySweeps, shifts: TabulatedShift) -> tuple[str,
         for i, j in pairs
     ]
     found = []
-    moved = [
-        Curve(c.x + along[i], tuple(y + up[i] for y in c.y))
-        for i, c in zip(shapely, curves, strict=True)
-    ]
+    moved = [c.moved(along[i], up[i]) for i, c in zip(shapely, curves, strict=True)]
     scatters = np.array([_scatters(a, b) for a, b in pairwise(moved)]).reshape(-1, 2, 2)
     for name, (common, own) in zip(("storage", "loss"), np.moveaxis(scatters, 0, -1), strict=True):
         # two noisy sweeps may still superpose
