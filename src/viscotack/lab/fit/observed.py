@@ -167,13 +167,12 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         refuse_unlike(data)
     tension = data.in_tension(poisson_ratio)
     temperature, temperatures = _temperatures(data)
+    values = np.array([getattr(tension, name) for name in tension.measured])
     if isinstance(tension, MasterCurve | FrequencySweeps):
         quantity, at = "complex modulus", tension.angular_frequency
-        values = np.array([tension.storage, tension.loss])
-    elif isinstance(tension, RelaxationTest):
-        quantity, at, values = "relaxation", tension.time, tension.modulus[None, :]
     else:
-        quantity, at, values = "creep", tension.time, tension.compliance[None, :]
+        quantity = "relaxation" if isinstance(tension, RelaxationTest) else "creep"
+        at = tension.time
     for part, row in zip(PARTS[quantity], values, strict=True):
         decades = float(np.ptp(np.log10(row)))
         if decades > _MOST_DECADES:
