@@ -126,12 +126,10 @@ def _nonlinear(columns: MaterialColumns) -> str:
     stress, strain = "stress" in columns, "strain" in columns
     rate, viscosity = "shear_rate" in columns, "viscosity" in columns
     size = "storage" in columns or "magnitude" in columns
+    # a wave of large amplitude has its rate beside strain and stress
+    waves = timed and stress and strain and rate and not viscosity
     cases = (
-        # a wave of large amplitude has its rate beside strain and stress
-        (
-            timed and stress and strain and rate and not viscosity,
-            "it is waves of strain and stress",
-        ),
+        (waves, "it is waves of strain and stress"),
         (rate or viscosity, "it is a flow curve or the start-up of a steady flow"),
         (not swept and "storage" in columns and strain, "it is an amplitude sweep"),
         (timed and stress and strain, "neither stress nor strain is held; separate the steps"),

@@ -299,12 +299,8 @@ def fit_constants(
         moved = np.sum(influences**2, axis=1)
         more = np.divide(half**2, moved, out=np.full(half.size, np.inf), where=moved > 0)
         allowed = 2 * best.cost + more
-        ends = np.array(
-            [
-                [search.profile_end(best.x, i, side, half[i], allowed[i]) for side in (-1, 1)]
-                for i in range(len(search.free))
-            ]
-        )
+        for i, (deviation, limit) in enumerate(zip(half, allowed, strict=True)):
+            ends[i] = [search.profile_end(best.x, i, side, deviation, limit) for side in (-1, 1)]
     fitted = dict(zip(search.free, np.exp(ends), strict=True))
     intervals = []
     for name in search.names:

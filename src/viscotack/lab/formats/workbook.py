@@ -121,12 +121,10 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
         for only in (True, False)
     )
     for sheet in values.worksheets:
+        pairs = zip_longest(_rows(sheet), _rows(formulas[sheet.title]), fillvalue=())
         rows = [
-            [
-                _text(formula if value is None else value)
-                for value, formula in zip(*pair, strict=False)
-            ]
-            for pair in zip_longest(_rows(sheet), _rows(formulas[sheet.title]), fillvalue=())
+            [_text(formula if v is None else v) for v, formula in zip(*pair, strict=False)]
+            for pair in pairs
         ]
         width = max(map(len, rows), default=0)
         yield sheet.title, [row + [""] * (width - len(row)) for row in rows]

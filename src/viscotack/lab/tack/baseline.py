@@ -321,16 +321,9 @@ def _contact(force: Array, depth: Array, time: Array, noise: float, share: float
         return None
     part = _part(force, depth, time, noise, share)
     size, last = float(np.ptp(part.force)), part.force.size - 1
-    widths = np.array(
-        [
-            [
-                *_widths(size, wander, (_SLOPES, _SLOPES), _FEW_SINES),
-                *(size * (p in flank) for p in _POWERS),
-            ]
-            for wander in _WANDERS
-            for flank in _FLANKS
-        ]
-    )
+    wanders = [_widths(size, wander, (_SLOPES, _SLOPES), _FEW_SINES) for wander in _WANDERS]
+    flanks = [[size * (p in flank) for p in _POWERS] for flank in _FLANKS]
+    widths = np.array([[*wander, *flank] for wander in wanders for flank in flanks])
     coarse = _between(1, last)
     logs, _ = _contact_evidence(part, coarse, widths)
     gain = float(logs.max() - logs[-1].max())
