@@ -502,15 +502,12 @@ def refuse_pooled(read: Sequence[Columns]) -> None:
     for heading, cells in columns.items():
         values = dict.fromkeys(cell for cell, _ in cells if cell)
         text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
-        sample, place = _SAMPLE.fullmatch(plain(heading)), _PLACE.fullmatch(plain(heading))
+        name = plain(heading)
+        sample, place = _SAMPLE.fullmatch(name), _PLACE.fullmatch(name)
         # a number of its own in each row counts the points
         counts = len(values) == len(cells) and not text
-        if (
-            len(values) < 2
-            or counts
-            or not (text or sample or place)
-            or _STATUS.search(plain(heading))
-        ):
+        tells_apart = text or sample or place
+        if len(values) < 2 or counts or not tells_apart or _STATUS.search(name):
             continue
         by_state: dict[Any, set[str]] = {}
         for cell, state in cells:
