@@ -10,7 +10,7 @@ from front_ends import Client, served
 from viscotack.app.api import application
 from viscotack.app.api.guard import guard
 from viscotack.app.engine.jobs import Engine, Limits
-from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.app.operations.parts.solid import EXAMPLES, FIRST
 
 OVER = ("done", "refused", "failed", "cancelled")
 

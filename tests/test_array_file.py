@@ -13,7 +13,7 @@ from picture_units import in_si
 from viscotack.design import read_array
 from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array
 from viscotack.design.holding import held_load
-from viscotack.plot.array import draw_array
+from viscotack.plot.design import draw_array
 from viscotack.theory import jkr
 
 SMALL = """

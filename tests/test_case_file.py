@@ -6,9 +6,8 @@ import pytest
 
 import viscotack as vt
 from stated import LENS, case_text, lens
-from viscotack.model.problem.case_file import case_of_tables
-from viscotack.model.problem.prony_file import read_prony
-from viscotack.model.problem.schema import schema
+from viscotack.model.problem.case_file import case_of_tables, read_prony
+from viscotack.model.problem.record import schema
 
 
 def written(folder, text):

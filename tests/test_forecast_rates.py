@@ -16,8 +16,7 @@ from viscotack.identify.covariances import SphereTests, covariance
 from viscotack.identify.forward import Forward, Interface
 from viscotack.model.materials import Passport, write_passport
 from viscotack.model.materials.conversion import slowed
-from viscotack.model.materials.passport import Evidence
-from viscotack.model.materials.passport_uncertainty import allowed
+from viscotack.model.materials.passport import Evidence, allowed
 from viscotack.model.materials.shift import WLF
 
 SOLID = creep_power_law(1e6, 1e7, 0.5, 1e-2, 0.5)

@@ -9,7 +9,7 @@ import viscotack as vt
 from rate_tests import RUBBER, holds, measured
 from viscotack.identify import RateSeries, forecast_rates, identify_rates
 from viscotack.identify.forward import Forward
-from viscotack.theory.crack.contact.films import MOST_ZONE
+from viscotack.theory.crack.contact.recession import MOST_ZONE
 
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.15, 100e-9, 20e-3
 BETA = (RADIUS**2 * WORK / RUBBER.contact_modulus) ** (1 / 3)

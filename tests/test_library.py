@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from viscotack.app.operations import operation
-from viscotack.app.operations.parts.library import library
+from viscotack.app.operations.parts.solid import library
 from viscotack.app.operations.request import Caller, request_of
 from viscotack.model.materials.library import MATERIALS, passport_of, published
 

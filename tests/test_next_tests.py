@@ -15,7 +15,7 @@ from viscotack.identify.forward import Forward
 from viscotack.identify.ranked_tests import noise_of
 from viscotack.model.materials import Passport
 from viscotack.model.materials.shift import WLF
-from viscotack.plot.next_tests import draw_next_tests
+from viscotack.plot.interface import draw_next_tests
 
 SOLID = creep_power_law(1e6, 1e7, 0.5, 1e-2, 0.5)
 RUBBER = Passport(

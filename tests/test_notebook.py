@@ -10,7 +10,7 @@ import pytest
 
 import viscotack as vt
 from synthetic import SI, jkr_result
-from viscotack.app.operations.parts.examples import FIRST
+from viscotack.app.operations.parts.solid import FIRST
 from viscotack.model.problem.case_file import case_of_tables
 from viscotack.units import readable
 

@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from viscotack.design.arrays import grid, preload_after
-from viscotack.simulate.force_curve import Curve
+from viscotack.simulate.curve_family import Curve
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 ELASTIC = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from viscotack.app.engine.page import CaseFile, Quick, Theory, Verdict
-from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.app.operations.parts.solid import EXAMPLES, FIRST
 from viscotack.app.operations.request import Caller
 from viscotack.errors import InputError, OutOfRange
 from viscotack.files.toml import toml_value

@@ -8,9 +8,15 @@ import pytest
 
 import viscotack as vt
 from viscotack.model.materials.conversion import slowed
-from viscotack.model.materials.passport import Evidence, Origin, Passport, _moved
+from viscotack.model.materials.passport import (
+    Evidence,
+    Origin,
+    Passport,
+    _moved,
+    allowed,
+    shift_error,
+)
 from viscotack.model.materials.passport_file import passport_text, read_passport, write_passport
-from viscotack.model.materials.passport_uncertainty import allowed, shift_error
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.model.problem.case_file import passport_of
 from viscotack.model.tables import Reading

@@ -43,7 +43,7 @@ def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
 
 
 def test_axes_of_a_regime_map_have_units_of_their_size():
-    from viscotack.plot.regimes import draw_regimes
+    from viscotack.plot.design import draw_regimes
     from viscotack.theory.punch import Frictionless, Pad
     from viscotack.theory.punch.map import regime_map
 

@@ -4,7 +4,7 @@ import pytest
 
 import viscotack as vt
 from stated import lens, numbers
-from viscotack.model.problem import plane, ranges
+from viscotack.model.problem import accuracy, plane
 from viscotack.model.problem.inputs import changed, check_paths
 
 E, NU = 1.458e6, 0.5
@@ -123,13 +123,13 @@ def test_a_case_is_named_by_its_content():
 
 def test_a_range_ends_at_its_ends_within_rounding():
     for value, reached in ((2.0, True), (2.0 * (1 - 0.9e-9), True), (2.0 * (1 - 1.1e-9), False)):
-        assert ranges.at_least(value, 2.0) is reached
+        assert accuracy.at_least(value, 2.0) is reached
     for value, reached in ((2.0, True), (2.0 * (1 + 0.9e-9), True), (2.0 * (1 + 1.1e-9), False)):
-        assert ranges.at_most(value, 2.0) is reached
+        assert accuracy.at_most(value, 2.0) is reached
     both = {"a": (1.0, 2.0), "b": (1.0, 2.0)}
-    assert ranges.outside({"a": 1.0, "b": 2.0}, both) == ""
+    assert accuracy.outside({"a": 1.0, "b": 2.0}, both) == ""
     said = "a is 0.5, verified from 1 to 2; b is 3, verified from 1 to 2"
-    assert ranges.outside({"a": 0.5, "b": 3.0}, both) == said
+    assert accuracy.outside({"a": 0.5, "b": 3.0}, both) == said
 
 
 def test_paths_of_numbers_are_checked_with_what_there_is():

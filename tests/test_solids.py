@@ -5,7 +5,7 @@ import pytest
 
 import viscotack as vt
 from viscotack.model.materials.random_solids import STRETCHED, creep_spectrum, random_solid
-from viscotack.prediction.surrogate import alike, linear_solids, physics, store
+from viscotack.prediction.surrogate import linear_solids, physics, store
 from viscotack.prediction.tiers import AT_ONCE
 from viscotack.theory import lennard_jones
 
@@ -65,7 +65,7 @@ def test_a_power_law_has_the_same_answer_through_either_door():
     mu, k, n, depth, rate = groups.T
     creep = [
         vt.RetardationPowerLaw(**UNIT, glassy_modulus=1 / ratio, exponent=e, tau0=1.0).creep(
-            alike.TIMES / speed
+            linear_solids.TIMES / speed
         )
         for ratio, e, speed in zip(k, n, rate, strict=True)
     ]

@@ -17,7 +17,7 @@ from viscotack.design.window import aged, opening_chance
 from viscotack.errors import InputError
 from viscotack.model.materials import Passport, write_passport
 from viscotack.model.materials.shift import WLF
-from viscotack.plot.window import draw_window
+from viscotack.plot.design import draw_window
 
 CONTACT = """
 [{name}.material]

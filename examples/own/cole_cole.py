@@ -20,9 +20,8 @@ from viscotack.model.materials.constants import (
     RetardationTime,
     RubberyModulus,
 )
-from viscotack.model.materials.interconversion import reciprocal
 from viscotack.model.materials.material import Solid
-from viscotack.model.materials.modes import FINEST, compressed
+from viscotack.model.materials.modes import FINEST, compressed, reciprocal
 
 Array = npt.NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from viscotack.campaign import Plan, Progress, Store, read_plan, run
 from viscotack.datasets.files import METADATA_KEY, plan_path
-from viscotack.files.arrow import arrow
+from viscotack.files.frame import arrow
 from viscotack.files.whole import write_whole
 from viscotack.version import __version__
 

@@ -15,7 +15,7 @@ from viscotack.files.whole import write_whole
 from viscotack.model.problem.outputs import REVOLUTION
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.physics import SphereContact
-from viscotack.result.trajectory import POINTS
+from viscotack.result.curve import POINTS
 from viscotack.version import __version__
 
 from .graph import IR_VERSION, OPSET, Graph

@@ -13,7 +13,7 @@ from viscotack.prediction.surrogate import physics
 from viscotack.prediction.surrogate.line import Curves
 from viscotack.prediction.surrogate.network import Networks
 from viscotack.prediction.surrogate.trust import CONFIDENCES, INPUTS, OF
-from viscotack.result.trajectory import POINTS
+from viscotack.result.curve import POINTS
 
 
 def test_a_larger_draw_of_a_seed_contains_the_smaller_one():

@@ -15,7 +15,7 @@ from research.training.train_punch import parts  # noqa: E402
 from viscotack.prediction.surrogate import contact, line, physics, store  # noqa: E402
 from viscotack.prediction.surrogate.store import shipped  # noqa: E402
 from viscotack.prediction.surrogate.trust import CONFIDENCES, OF  # noqa: E402
-from viscotack.result import trajectory  # noqa: E402
+from viscotack.result import curve
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 
@@ -51,11 +51,11 @@ def test_what_a_network_should_say_gives_the_stored_curve_again(rows):
 
 
 def test_areas_are_exact_for_a_parabola():
-    u = np.linspace(0, 1, trajectory.TENSILE)
-    t = trajectory.gathered(trajectory.TENSILE)
+    u = np.linspace(0, 1, curve.TENSILE)
+    t = curve.gathered(curve.TENSILE)
     assert line.AREA @ t == pytest.approx(0.5, rel=1e-12)
-    assert line.AREA @ np.ones(trajectory.TENSILE) == pytest.approx(1, rel=1e-12)
-    assert line.REFINE @ u**3 == pytest.approx(np.linspace(0, 1, trajectory.POINTS) ** 3, abs=1e-12)
+    assert line.AREA @ np.ones(curve.TENSILE) == pytest.approx(1, rel=1e-12)
+    assert line.REFINE @ u**3 == pytest.approx(np.linspace(0, 1, curve.POINTS) ** 3, abs=1e-12)
 
 
 def test_unknown_numbers_are_not_learned(rows):

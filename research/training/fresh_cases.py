@@ -23,8 +23,7 @@ from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, sol
 from viscotack.model.materials.random_solids import STRETCHED, creep_spectrum
 from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import linear_solids, physics, punch_physics, short_range
-from viscotack.prediction.surrogate.alike import TIMES
-from viscotack.prediction.surrogate.linear_solids import SolidContact
+from viscotack.prediction.surrogate.linear_solids import TIMES, SolidContact
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.result.curve import retraction
 

@@ -13,23 +13,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.model.materials import spectrum
+from viscotack.model.materials import power_law
 from viscotack.model.materials.random_solids import creep_spectrum
 from viscotack.prediction.surrogate import physics, store
-from viscotack.prediction.surrogate.alike import (
+from viscotack.prediction.surrogate.contact import share
+from viscotack.prediction.surrogate.linear_solids import (
     DECADES,
     DOUBTS,
     SOUGHT,
     TIMES,
     USUAL,
+    WIDEST,
     Alike,
     alike,
+    begin_inputs,
+    bell,
     climbed,
     crept,
     left,
 )
-from viscotack.prediction.surrogate.contact import share
-from viscotack.prediction.surrogate.linear_solids import WIDEST, begin_inputs, bell
 from viscotack.prediction.surrogate.network import Networks
 
 from .fitting import Fit, Task, fit
@@ -126,7 +128,7 @@ def made_up(solids: int, power_laws: int) -> tuple[Tests, Array]:
             times = TIMES * 10 ** (ends[0] + (ends[1] - ends[0]) * places[i, physics.RATE])
             crept_then = -np.expm1(-times[:, None] / tau) @ (weights / weights.sum())
         else:
-            crept_then = spectrum.crept(n[i], TIMES / rate[i])
+            crept_then = power_law.crept(n[i], TIMES / rate[i])
         creep[i] = k[i] + (1 - k[i]) * crept_then
     return (mu, k, depth), np.clip(creep, k[:, None], 1.0)
 

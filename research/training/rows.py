@@ -12,7 +12,7 @@ from viscotack import datasets
 from viscotack.arrays import Array
 from viscotack.model.problem.outputs import REVOLUTION, Kind
 from viscotack.prediction.surrogate import line, physics
-from viscotack.result.trajectory import POINTS, PRESSED, TENSILE
+from viscotack.result.curve import POINTS, PRESSED, TENSILE
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
 LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"

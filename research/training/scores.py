@@ -8,7 +8,7 @@ from scipy.interpolate import PchipInterpolator
 from viscotack.arrays import Array
 from viscotack.prediction.surrogate.line import Curves
 from viscotack.prediction.surrogate.trust import Answers
-from viscotack.result.trajectory import PRESSED
+from viscotack.result.curve import PRESSED
 
 from .rows import Rows
 

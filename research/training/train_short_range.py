@@ -23,7 +23,7 @@ from viscotack.prediction.surrogate.network import Networks
 from viscotack.prediction.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR, Array
 from viscotack.prediction.surrogate.short_range import HIGH, LOW, ShortRangeContact
 from viscotack.prediction.surrogate.trust import OF
-from viscotack.result.trajectory import POINTS
+from viscotack.result.curve import POINTS
 from viscotack.simulate.crack_contact.by_crack import CrackContact, crack_contacts, unloading
 
 from .fitting import Fit, Task

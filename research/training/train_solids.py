@@ -15,12 +15,11 @@ import numpy.typing as npt
 
 from viscotack import datasets
 from viscotack.arrays import Array
-from viscotack.model.materials import spectrum
+from viscotack.model.materials import power_law
 from viscotack.model.materials.random_solids import STRETCHED
 from viscotack.prediction.surrogate import linear_solids, store
-from viscotack.prediction.surrogate.alike import TIMES, Alike
 from viscotack.prediction.surrogate.contact import between
-from viscotack.prediction.surrogate.linear_solids import SAMPLES, SolidContact
+from viscotack.prediction.surrogate.linear_solids import SAMPLES, TIMES, Alike, SolidContact
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.network import Networks
 
@@ -106,7 +105,7 @@ def power_laws(every: int) -> Tests:
 def as_solids(rows: Rows) -> Tests:
     """Return tests on power laws as tests on solids like others."""
     mu, k, n, preload, rate = rows.groups.T
-    crept = np.array([spectrum.crept(e, TIMES / r) for e, r in zip(n, rate, strict=True)])
+    crept = np.array([power_law.crept(e, TIMES / r) for e, r in zip(n, rate, strict=True)])
     creep = k[:, None] + (1 - k[:, None]) * crept
     return Tests(mu, k, preload, creep, rows, np.full(len(rows), -1.0))
 

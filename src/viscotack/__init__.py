@@ -77,9 +77,9 @@ if TYPE_CHECKING:
     from viscotack.model.traction import LogarithmicAgeing as LogarithmicAgeing
     from viscotack.model.traction import SaturatingAgeing as SaturatingAgeing
     from viscotack.model.traction import Tabulated as Tabulated
+    from viscotack.plot.design import draw_regimes as draw_regimes
     from viscotack.plot.material import draw_fit as draw_fit
     from viscotack.plot.prediction import draw_prediction as draw_prediction
-    from viscotack.plot.regimes import draw_regimes as draw_regimes
     from viscotack.plot.simulation import draw_energy as draw_energy
     from viscotack.plot.simulation import draw_force as draw_force
     from viscotack.plot.simulation import draw_overview as draw_overview
@@ -176,7 +176,7 @@ _NAMES = {
     "result.loops": "Loop",
     "prediction": "advise Advice Estimate predict predict_table Prediction prediction_summary",
     "plot.simulation": "draw_energy draw_force draw_radius draw_overview",
-    "plot.regimes": "draw_regimes",
+    "plot.design": "draw_regimes",
     "plot.style": "save_figure",
     "plot.material": "draw_fit",
     "design.window": (

@@ -22,12 +22,10 @@ from viscotack.cards import cards, check_carded, with_units
 from viscotack.model.geometry import FlatPunch, Layer, Sphere, detail, equivalent_radius
 from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.materials import Elastic, StandardSolid
-from viscotack.model.materials.conversion import slowed
-from viscotack.model.materials.interconversion import reciprocal
-from viscotack.model.materials.modes import FINEST, voigt
+from viscotack.model.materials.conversion import scaled, slowed
+from viscotack.model.materials.modes import FINEST, reciprocal, voigt
 from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport, write_passport
-from viscotack.model.materials.scaling import scaled
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.nouns import known, room_of
 from viscotack.model.problem.record import from_dict, to_dict

@@ -9,14 +9,14 @@ from scipy.integrate import solve_ivp
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.model.traction.growing import reference_speed
+from viscotack.model.traction.resting import reference_speed
 from viscotack.theory import SteadyCrack
 from viscotack.theory.crack.contact import (
     GrowingCracks,
     profile_of,
     recede,
 )
-from viscotack.theory.crack.steady import _grown, _memory, _mesh, _start, comparison
+from viscotack.theory.crack.steady import _balance, _grown, _mesh, cracks
 
 REST = vt.LennardJones(1.0, 1.0)
 POWER = vt.GentSchultz(1, 1, 1.0, 0.5)
@@ -56,9 +56,9 @@ def test_a_finer_mesh_confirms_the_amplification():
     grid = _mesh.mesh(1.0, 3e4 / usual.modes.instantaneous, refined=2.0)
 
     def opening(log_speed):
-        return _memory.opening_matrix(grid, _memory.lengths_of(grid, usual.modes, exp(log_speed)))
+        return _mesh.opening_matrix(grid, _mesh.lengths_of(grid, usual.modes, exp(log_speed)))
 
-    law, start = _start.pinned(REST), _start.elastic(REST, grid)
+    law, start = _balance.pinned(REST), _balance.elastic(REST, grid)
     fine = _grown.Grown(grid, law, usual.modes, opening, POWER, start)
     speed = np.array([0.1, 3.0])
     np.testing.assert_allclose(usual.amplification(speed), fine.gamma(np.log(speed)), rtol=3e-3)
@@ -74,7 +74,7 @@ def test_speeds_and_amplifications_are_inverse_and_do_not_depend_on_units():
         crack.amplification(2.0), rel=1e-9
     )
     with pytest.raises(vt.OutOfRange, match="supports laws of the gap only"):
-        comparison.compared(crack, 1.0)
+        cracks.compared(crack, 1.0)
 
 
 def test_a_receding_contact_solves_its_ordinary_differential_equation():

@@ -11,8 +11,8 @@ import viscotack as vt
 from dimensionless import slope
 from reference_data import reference
 from solids import fractional_zener
-from viscotack.model.materials.interconversion import reciprocal
-from viscotack.model.materials.spectrum import nodes
+from viscotack.model.materials.modes import reciprocal
+from viscotack.model.materials.power_law import nodes
 
 # Ordinary numbers: 1 MPa rubber, 1 ms, k from 1e-1 to 1e-6, exponents with both integers.
 E0, TAU, NU = 1.2e6, 2e-3, 0.48

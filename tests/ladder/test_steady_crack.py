@@ -45,9 +45,9 @@ def spectrum(rng, most=20):
 
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_an_elastic_crack_takes_the_work_of_adhesion(law):
-    length = float(steady._start.effective_range(law)) ** 2
+    length = float(steady._balance.effective_range(law)) ** 2
     mesh = steady._mesh.mesh(length, 3e5 * length, refined=2.0)
-    found = steady._start.elastic(steady._start.softened(law), mesh)
+    found = steady._balance.elastic(steady._balance.softened(law), mesh)
     # the far field, which nothing on the mesh was divided by
     assert found.amplification == pytest.approx(1, abs=1e-4)
 
@@ -81,8 +81,8 @@ def test_the_heat_is_what_the_modes_dissipate_one_by_one():
 
 def test_a_crack_that_closes_is_the_same_with_the_memory_of_the_openings():
     # the modes of the openings and not of the tractions, the way round that is less stable
-    k, mesh, law = 0.1, steady._mesh.mesh(1.0, 3e5, refined=0.6), steady._start.pinned(REDUCED)
-    u = steady._start.elastic(REDUCED, mesh).u
+    k, mesh, law = 0.1, steady._mesh.mesh(1.0, 3e5, refined=0.6), steady._balance.pinned(REDUCED)
+    u = steady._balance.elastic(REDUCED, mesh).u
     for length in np.geomspace(0.1, 10, 101):
         mirrored = mesh._replace(x=-mesh.x[::-1], dx=mesh.dx[::-1])
         lagging = lagged(mirrored, length)[::-1, ::-1]
@@ -101,12 +101,12 @@ def test_a_crack_that_closes_is_the_same_with_the_memory_of_the_openings():
 def test_finer_meshes_change_less_than_the_stated_error():
     law = Exponential(1.0, 1.0, 0.25)
     crack = steady.SteadyCrack(standard(0.1), law)
-    length = float(steady._start.effective_range(law)) ** 2
+    length = float(steady._balance.effective_range(law)) ** 2
     mesh = steady._mesh.mesh(length, 3e5 * length, refined=2.0)
-    start = steady._start.elastic(law, mesh)
+    start = steady._balance.elastic(law, mesh)
     for sign in (1, -1):
         fine = steady._branch.Branch(
-            mesh, steady._start.pinned(law), crack.modes, start, crack.slow_coefficient, sign
+            mesh, steady._balance.pinned(law), crack.modes, start, crack.slow_coefficient, sign
         )
         for speed in (0.1, 2.0):
             found = fine.at(np.log(speed)).amplification / start.amplification

@@ -1,12 +1,20 @@
 """One case of a campaign: solve it within its limits and return a row. Runs in the workers.
 
+Versions and source hash of the running program: a table must not mix rows of different ones.
+
 A row contains the numbers of ``viscotack.summary``, key points of the curve and a resampled
 trajectory, about a thousandth of the size of a result.
 """
 
+import hashlib
+import platform
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
 from typing import Annotated, Any
+
+import numpy
+import scipy
 
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
@@ -17,8 +25,26 @@ from viscotack.result.curve import curve
 from viscotack.result.observables import pull_off, summary
 from viscotack.simulate import DEFAULT_ACCURACY, Accuracy, solve
 from viscotack.simulate.rough import problem_of, pull, stickiness
+from viscotack.version import __version__
 
-from .identity import identity
+_PACKAGE = Path(__file__).parents[1]
+
+
+@cache
+def identity() -> str:
+    """Return the versions on which numbers depend, and a hash of the source of this package."""
+    source = hashlib.sha256()
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        content = path.read_bytes()
+        source.update(f"{path.relative_to(_PACKAGE).as_posix()} {len(content)}\n".encode())
+        source.update(content)
+    return (
+        f"viscotack {__version__}, source {source.hexdigest()[:16]}, "
+        # a change of its last part does not change numbers
+        f"python {'.'.join(platform.python_version_tuple()[:2])}, "
+        f"numpy {numpy.__version__}, scipy {scipy.__version__}"
+    )
+
 
 # Entries of the summary for readers or of histories, left out of tables of pull-offs.
 _LEFT_OUT = (

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.files.arrow import arrow
+from viscotack.files.frame import arrow
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
 

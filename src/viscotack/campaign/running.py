@@ -29,12 +29,12 @@ from pathlib import Path
 from time import monotonic, perf_counter, sleep
 from typing import Any
 
+from viscotack.campaign.case import identity
 from viscotack.errors import InputError
 from viscotack.model.problem.kinds import Kind
 from viscotack.system import Processes, begin_worker
 
 from .case import CaseSettings, Unsolved, measure
-from .identity import identity
 from .plan import Case, Plan, restored_kind
 from .store import PASSING, Store, locked
 

@@ -17,12 +17,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from viscotack.campaign.case import identity
 from viscotack.errors import InputError
 from viscotack.files.frame import frame
 from viscotack.files.text import read_text
 
 from .case import CaseSettings
-from .identity import identity
 from .plan import Case, Plan, numbers_of, restored_kind
 
 _TABLES = {

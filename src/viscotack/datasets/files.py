@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError, NotInstalled, install_command
-from viscotack.files.arrow import arrow
+from viscotack.files.frame import arrow
 from viscotack.version import __version__
 
 NAMES = (

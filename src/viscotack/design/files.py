@@ -16,6 +16,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from viscotack.cards import Exact, Pairs, Quantity, cards
+from viscotack.design.window.picking import WindowScatter
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.model.materials import Elastic, Material
@@ -41,7 +42,6 @@ from .space import (
     Targets,
     ends,
 )
-from .window.chances import WindowScatter
 from .window.opening import aged
 from .window.picking import DONOR, RECEIVER, STAMP
 

@@ -20,7 +20,7 @@ from viscotack.arrays import Array
 from viscotack.lab.sweeps import GAP
 from viscotack.model.materials import Passport
 from viscotack.model.materials.conversion import slowed
-from viscotack.model.materials.passport_uncertainty import allowed, shift_error
+from viscotack.model.materials.passport import allowed, shift_error
 from viscotack.model.protocol import Move
 
 from .forward import Changed, Forward, Interface, Pulled

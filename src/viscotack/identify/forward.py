@@ -32,7 +32,7 @@ from viscotack.theory.crack.contact import (
     profile_of,
     recede,
 )
-from viscotack.theory.crack.contact.films import ERROR_BY_ZONE, LEAST_RATIO, outside
+from viscotack.theory.crack.contact.recession import ERROR_BY_ZONE, LEAST_RATIO, outside
 from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.units import readable
 

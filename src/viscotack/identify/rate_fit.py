@@ -18,7 +18,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Layer
-from viscotack.theory.crack.contact.films import MOST_ZONE
+from viscotack.theory.crack.contact.recession import MOST_ZONE
 from viscotack.units import readable
 
 from .computed import Computed

@@ -18,7 +18,7 @@ from viscotack.errors import InputError
 from viscotack.lab.tack import Survey
 from viscotack.model.geometry import HalfSpace, Layer
 from viscotack.model.materials import Material, Passport
-from viscotack.model.materials.passport_uncertainty import shift_error
+from viscotack.model.materials.passport import shift_error
 from viscotack.model.protocol import Move
 
 from .approach import range_bound

@@ -23,8 +23,7 @@ from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
 from viscotack.model.geometry import Sphere
 from viscotack.model.materials import Material
-from viscotack.model.materials.passport import Passport
-from viscotack.model.materials.passport_uncertainty import allowed
+from viscotack.model.materials.passport import Passport, allowed
 from viscotack.model.problem import Problem
 from viscotack.model.protocol import AtForce, Retraction
 from viscotack.model.traction import LennardJones

@@ -10,9 +10,8 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.model.geometry import Layer
-from viscotack.model.materials.passport import Passport
-from viscotack.model.materials.passport_uncertainty import allowed
-from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
+from viscotack.model.materials.passport import Passport, allowed
+from viscotack.theory.crack.contact.recession import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 
 from .contact_time import PER_DECADE

@@ -30,7 +30,7 @@ def html_of_problem(problem: Problem) -> str:
 
     Examples
     --------
-    >>> from viscotack.app.operations.parts.examples import FIRST
+    >>> from viscotack.app.operations.parts.solid import FIRST
     >>> from viscotack.model.problem.case_file import case_of_tables
     >>> "<td>sphere radius</td><td>R</td><td>5.19 mm</td>" in html_of_problem(case_of_tables(FIRST))
     True

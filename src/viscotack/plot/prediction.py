@@ -1,5 +1,7 @@
 """Figure of a prediction: surrogate curve, interval, and markers of a simulation.
 
+Figure of the shares of inputs in the variance of a force.
+
 Force positive in compression, depth positive into the solid.
 """
 
@@ -12,14 +14,15 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack.errors import InputError
 from viscotack.model.problem.outputs import PLANE
+from viscotack.plot.style import drawing, label_of
 from viscotack.prediction.prediction import Prediction
+from viscotack.prediction.uncertainty import Uncertainty
 from viscotack.result import Result
-
-from .style import drawing, label_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 # Line segments between two points of a curve.
 _BETWEEN = 8
 
@@ -101,3 +104,22 @@ def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> Non
         kind = prediction.problem.groups().outputs
         label = f"zero {'stress' if kind is PLANE else 'force'}, interval"
         axes.plot(ends, [0.0, 0.0], "|-", color="C1", ms=10, zorder=0.6, label=label)
+
+
+def draw_uncertainty(found: Uncertainty) -> Figure:
+    """Draw first-order and total indices of the inputs as bars, the largest on top.
+
+    Parameters
+    ----------
+    found : Uncertainty
+        Result of :func:`viscotack.uncertainty`.
+    """
+    names = sorted(found.total, key=found.total.__getitem__)
+    with drawing(7.0, 1.4 + 0.42 * len(names)) as figure:
+        axes = figure.subplots()
+        axes.barh(names, [found.total[x] for x in names], color="0.8", label="with other inputs")
+        axes.barh(names, [found.first[x] for x in names], height=0.45, label="alone")
+        axes.set_xlim(0, 1)
+        axes.set_xlabel("share of the variance of the logarithm of the force")
+        axes.legend(loc="lower right", fontsize="small")
+    return figure

@@ -9,6 +9,7 @@ from viscotack.model.geometry import Sphere
 from viscotack.model.materials import Elastic
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
+from viscotack.prediction.theories import VERIFIED, crack_limits
 from viscotack.simulate.crack_contact.crack_problem import ROOT
 from viscotack.simulate.handover import too_short
 from viscotack.units import readable
@@ -18,7 +19,6 @@ from .closed_forms import Estimate, check_test, is_classic
 from .other_contacts import SATURATED, TOLERANCES, OtherContact, check_contact, other_contact
 from .prediction import Prediction
 from .simulation import SIMULATION
-from .steady_crack import VERIFIED, crack_limits
 from .theories import CLOSED_FORM, closed_form_limits, estimate_of, forms_of
 from .tier import Question, Tier
 from .tiers import CLOSED_FORMS, CRACK, EXACT, LEARNED_PUNCH, SOON, TIERS, best

@@ -21,7 +21,7 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import HalfSpace, Sphere
 from viscotack.model.materials import Elastic
 from viscotack.model.problem import Groups
-from viscotack.model.problem.ranges import at_least, at_most
+from viscotack.model.problem.accuracy import at_least, at_most
 from viscotack.model.protocol import AtDepth, Start
 from viscotack.model.traction import LennardJones, effective_range, softening
 from viscotack.model.traction.resting import check_of_gap_alone

@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.prediction.surrogate import physics, short_range, store
-from viscotack.simulate.crack_contact.crack_band import curve_bands, not_measured
+from viscotack.simulate.crack_contact.by_crack import curve_bands, not_measured
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.theory.elastic.relaxed import contact_in_groups
 

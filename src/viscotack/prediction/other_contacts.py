@@ -7,7 +7,7 @@ contact that begins at the start and only shrinks.
 
 In between, under a shape without details, the edge is a steady crack that recedes on the film
 (:mod:`viscotack.theory.crack.contact.recession`), within the limits and the error of
-:mod:`viscotack.theory.crack.contact.films`.
+:mod:`viscotack.theory.crack.contact.recession`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from viscotack.model.geometry import Base, Disc, HalfSpace, Layer, detail
 from viscotack.model.problem import Groups
 from viscotack.theory import SteadyCrack, film
 from viscotack.theory.crack.contact import profile_on, recede
-from viscotack.theory.crack.contact.films import (
+from viscotack.theory.crack.contact.recession import (
     ERROR,
     ERROR_BY_ZONE,
     LEAST_RATIO,

@@ -84,7 +84,7 @@ def predict(
     The surrogates of spheres cover the retraction at constant speed from a relaxed solid, with
     the Lennard-Jones traction and a rigid machine. They were trained on
     :class:`viscotack.RetardationPowerLaw`. Any other linear solid is replaced by the power law with
-    the same creep around the times of the test (:mod:`.surrogate.alike`), with intervals
+    the same creep around the times of the test (:mod:`.surrogate.linear_solids`), with intervals
     measured on other solids. The surrogate of flat punches covers the same test on a layer of a
     standard solid that slides on its base (:mod:`.surrogate.punch_physics`).
     :mod:`.tiers` lists the other tiers and their verified ranges.

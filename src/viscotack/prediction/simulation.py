@@ -9,7 +9,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.prediction.surrogate.line import Curves
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
-from viscotack.simulate.crack_contact.crack_band import not_measured
+from viscotack.simulate.crack_contact.by_crack import not_measured
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
 from .tier import Question

@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.errors import OutOfRange
 from viscotack.model.materials import RetardationPowerLaw
 from viscotack.model.problem import Groups
-from viscotack.prediction.surrogate import alike, linear_solids, physics, store
+from viscotack.prediction.surrogate import linear_solids, physics, store
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 
 from . import power_laws
@@ -65,11 +65,11 @@ def by_solids(asked: Question) -> Prediction:
     return within(asked, solids, solids.tests(like), SOLIDS, why)
 
 
-def _like(groups: Groups, depth: float) -> alike.Alike:
+def _like(groups: Groups, depth: float) -> linear_solids.Alike:
     """Return the power law equivalent to the solid of a test, for a start at a depth [h0]."""
     assert groups.rate is not None, "checked by the allow-list"
     material, k = groups.material, groups.modulus_ratio
-    creep = np.asarray(material.creep(alike.TIMES / groups.rate)) * material.rubbery_modulus
+    creep = np.asarray(material.creep(linear_solids.TIMES / groups.rate)) * material.rubbery_modulus
     # rounding may place it outside the range
     creep = np.clip(creep, k, 1.0)
     one = np.ones(1)
@@ -88,7 +88,7 @@ def _lag(groups: Groups) -> tuple[float, float]:
     return mean, square / mean**2 - 1 if mean > 0 else 0.0
 
 
-def _by_lag(asked: Question, like: alike.Alike, lag: float, variance: float) -> Prediction:
+def _by_lag(asked: Question, like: linear_solids.Alike, lag: float, variance: float) -> Prediction:
     """Evaluate the surrogate of power laws for a solid that hardly lags behind the test.
 
     The force exceeds its slow limit in proportion to the mean retardation time, whatever the

@@ -100,7 +100,7 @@ class Verified:
         Whether moves before the retraction, and a compliant machine, are allowed.
     ranges : mapping
         Smallest and largest value of each input, for
-        :func:`viscotack.model.problem.ranges.outside`.
+        :func:`viscotack.model.problem.accuracy.outside`.
     """
 
     shapes: tuple[type, ...]

@@ -13,15 +13,16 @@ from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.materials import Elastic, RetardationPowerLaw
+from viscotack.prediction import theories
+from viscotack.prediction.theories import CRACK_CONTACT, by_crack_contact
 
-from . import learned_crack, power_laws, punches, solids, steady_crack
+from . import learned_crack, power_laws, punches, solids
 from .learned_crack import LEARNED_CRACK, by_learned_crack
 from .power_laws import SURROGATE, by_power_laws
 from .prediction import Prediction
 from .punches import LEARNED_PUNCH, by_punches
 from .simulation import SIMULATION, by_simulation
 from .solids import SOLIDS, by_solids
-from .steady_crack import CRACK_CONTACT, by_crack_contact
 from .theories import CLOSED_FORM, ELASTIC, by_closed_form
 from .tier import Question, Tier, Uncertain
 
@@ -46,7 +47,7 @@ CLOSED_FORMS = {
         *((x, (CLOSED_FORM,)) for x in ("unloading", "detachment", "rate-fit", "glassy")),
     )
 }
-CRACK = Tier(CRACK_CONTACT, 0.5, (steady_crack.VERIFIED,), by_crack_contact)
+CRACK = Tier(CRACK_CONTACT, 0.5, (theories.VERIFIED,), by_crack_contact)
 THEORIES = (CRACK, *CLOSED_FORMS.values())
 EXACT = Tier(SIMULATION, 3.0, (), by_simulation)
 TIERS = (*LEARNED, *THEORIES, EXACT)

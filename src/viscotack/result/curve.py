@@ -1,16 +1,61 @@
-"""Key points and trajectory of a retraction from its start to the pull-off, for rows of tables."""
+"""Key points and trajectory of a retraction from its start to the pull-off, for rows of tables.
+
+**Sampling of a trajectory: 24 points from the start of a retraction to the pull-off.** From a deep
+start, the travel to zero force is long and the travel in tension short, so each part has its own
+points: the last 16 lie between zero force and pull-off. A start in tension has only the second
+part.
+"""
 
 from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
+from viscotack.result import Result
+from viscotack.result.observables import PullOff
+from viscotack.result.parts import spans
 
-from . import Result
-from .observables import PullOff
-from .parts import spans
-from .trajectory import shares
+POINTS, TENSILE = 24, 16
+PRESSED = POINTS - TENSILE
+
+
+def gathered(count: int) -> npt.NDArray[np.float64]:
+    """Return fractions of a travel from 0 to 1, denser at its end.
+
+    Examples
+    --------
+    >>> gathered(3).tolist()
+    [0.0, 0.75, 1.0]
+    """
+    return 1 - (1 - np.linspace(0.0, 1.0, count)) ** 2
+
+
+def shares(zero: float) -> npt.NDArray[np.float64]:
+    """Return the fractions of the travel to the pull-off at which a trajectory is sampled, (24,).
+
+    Parameters
+    ----------
+    zero : float
+        Fraction at which the force is zero for the last time; 0 for a start in tension.
+
+    Returns
+    -------
+    ndarray
+        Eight points from the start to zero force and sixteen from there to the pull-off, or all 24
+        in tension; denser at the end of each part, :math:`1 - (1 - i/n)^2` of it.
+
+    Examples
+    --------
+    >>> shares(0.9)[[0, 7, 8, 9, 23]].round(4).tolist()
+    [0.0, 0.8859, 0.9, 0.9129, 1.0]
+    """
+    if zero <= 0:
+        return gathered(POINTS)
+    pressing = gathered(PRESSED + 1)[:-1]
+    return np.append(zero * pressing, zero + (1 - zero) * gathered(TENSILE))
+
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
@@ -24,7 +69,7 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     dict
         ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
         ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at the places
-        of :func:`viscotack.result.trajectory.shares`. Names, units and signs are those of the
+        of :func:`viscotack.result.curve.shares`. Names, units and signs are those of the
         columns of the geometry: of a punch ``stress``, tension positive, and ``ligament``. Forces
         follow a monotone cubic between the steps of the run, radii a straight line; None without an
         edge. A problem in SI has each in SI as well, ``trajectory_force_N``.

@@ -13,10 +13,9 @@ from scipy.interpolate import CubicSpline
 
 from viscotack.model.materials import Modes
 from viscotack.model.traction import grows
-from viscotack.simulate.ageing import Contacted
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.equilibrium import Balance, descend, pressed_shut
-from viscotack.simulate.growth import Frozen, Opening, Stepped, bend, driven
+from viscotack.simulate.growth import Contacted, Frozen, Opening, Stepped, bend, driven
 from viscotack.simulate.history import Snapshot
 from viscotack.simulate.interface import Faces, least_gap, room
 from viscotack.simulate.machine import Hold

@@ -2,9 +2,9 @@ r"""Two contacts in series by steady cracks: which of them opens, with bands.
 
 Each contact is that of :func:`viscotack.crack_contact`, and both carry the same force
 (:mod:`viscotack.theory.crack.contact.series`). Each has a band of its strength from
-:mod:`.crack_band`, at its energy and travel when the common tension is largest. The answer is
-decided if the same contact opens in both corners of the bands: with the first contact weaker and
-the second stronger, and the reverse.
+:mod:`.crack_contact.by_crack`, at its energy and travel when the common tension is largest. The
+answer is decided if the same contact opens in both corners of the bands: with the first contact
+weaker and the second stronger, and the reverse.
 """
 
 from __future__ import annotations
@@ -22,11 +22,12 @@ from viscotack.model.problem import Groups, Problem
 from viscotack.model.traction import LennardJones, has_rest
 from viscotack.simulate.crack_contact.by_crack import (
     LEAST_TABOR,
+    band_parts,
     effective_tabor,
+    not_measured,
     tension_left,
     too_large_zone,
 )
-from viscotack.simulate.crack_contact.crack_band import band_parts, not_measured
 from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (

@@ -26,7 +26,6 @@ from viscotack.model.problem.revolution import SIMULATED_TABOR
 from viscotack.model.traction import effective_range, has_rest
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
-from viscotack.simulate.ageing import finer
 from viscotack.simulate.bounds import check_bounds, check_clock, check_held
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.contacts.disc import DiscContact
@@ -35,6 +34,7 @@ from viscotack.simulate.contacts.punch import PunchContact
 from viscotack.simulate.contacts.shape import ShapeContact
 from viscotack.simulate.contacts.sphere import SphereContact
 from viscotack.simulate.estimate import COARSER, estimated
+from viscotack.simulate.growth import finer
 from viscotack.simulate.history import History, Snapshot
 from viscotack.simulate.interface import resolved
 from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel

@@ -1,4 +1,7 @@
-"""Routes of the API and of the page."""
+"""Routes of the API and of the page.
+
+Schemas of the responses of the API.
+"""
 
 from inspect import cleandoc
 from typing import Annotated, Any
@@ -6,6 +9,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, FastAPI, Path, Query, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
+from pydantic import BaseModel, ConfigDict
 from starlette.exceptions import HTTPException
 
 from viscotack.app.engine import page
@@ -15,7 +19,25 @@ from viscotack.app.operations import operations
 from viscotack.app.operations.request import Request, described, refusal, summary
 from viscotack.errors import InputError
 
-from .models import Answer, Refusal, SentFiles
+
+class SentFiles(BaseModel):
+    """Files that were sent, for the query of requests that name them."""
+
+    files: str
+
+
+class Refusal(BaseModel):
+    """Error response: the problem, the value, and a remedy; `field` is the option, if it is one."""
+
+    error: str
+    field: str = ""
+
+
+class Answer(BaseModel):
+    """Response; its keys are those of the ``--json`` output of the command line."""
+
+    model_config = ConfigDict(extra="allow")
+
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0

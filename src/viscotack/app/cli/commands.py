@@ -1,5 +1,7 @@
 """The command-line application and its error handling.
 
+The list of all commands: each is imported when it runs, shows its help or is completed.
+
 Exit status: 0 success; 1 the simulation failed (its status gives the reason); 2 invalid input, or a
 file could not be written; 3 a defect of viscotack; 130 interrupted by ctrl-C.
 With --json exactly one object is written to standard output, everything else to standard error.
@@ -7,14 +9,16 @@ With --json exactly one object is written to standard output, everything else to
 
 import re
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 from typer import Option
+from typer.core import TyperCommand, TyperGroup
 
+from viscotack.app.operations import COMMANDS, SECTIONS
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.files.text import harmless
 from viscotack.version import __version__
@@ -110,3 +114,63 @@ def _flag(name: str, kind: "type[Request] | None") -> str:
 def _stop(message: str, status: int = 2) -> NoReturn:
     typer.echo(harmless(f"viscotack: {message}"), err=True)
     raise typer.Exit(status)
+
+
+_GROUPS = {
+    "theory": "Evaluate a closed-form theory.",
+    "material": "Fit, show, convert and export materials.",
+    "export": "Write contacts for other programs.",
+    "test": "Evaluate files of a tack tester or microscope: pull-off forces and speeds.",
+    "identify": "Fit work of adhesion and range of attraction to measured curves.",
+    "campaign": "Run many problems by a plan; resumable, results as a table.",
+}
+
+
+class BySection(TyperGroup):
+    """A group whose help lists the commands by what a person does."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the commands of each section."""
+        for title, commands in SECTIONS.items():
+            names = dict.fromkeys(name.partition(" ")[0] for name in commands)
+            with formatter.section(title):
+                formatter.write_dl([(n, self.commands[n].get_short_help_str(70)) for n in names])
+
+
+class Later(TyperCommand):
+    """A command whose options are not known yet; its callback returns the complete command."""
+
+    def make_context(self, *words: Any, **more: Any) -> Any:
+        """Parse arguments with the complete command, which also runs and prints the help."""
+        complete = self.callback
+        assert complete is not None
+        return complete().make_context(*words, **more)
+
+
+def add_commands() -> None:
+    """Add the commands of all operations to the application."""
+    application.info.cls = BySection
+    groups: dict[str, typer.Typer] = {}
+    for name, (module, summary) in COMMANDS.items():
+        if not module:
+            continue
+        first, _, rest = name.partition(" ")
+        place = application
+        if rest:
+            if first not in groups:
+                words = _GROUPS[first]
+                groups[first] = typer.Typer(help=words, no_args_is_help=True, rich_markup_mode=None)
+                application.add_typer(groups[first], name=first)
+            place = groups[first]
+        place.command(rest or first, cls=Later, help=summary)(_completing(name))
+
+
+def _completing(name: str) -> Callable[[], Any]:
+    """Return the function that imports an operation and makes its command."""
+
+    def complete() -> Any:
+        from .making import command_of
+
+        return command_of(name)
+
+    return complete

@@ -106,7 +106,7 @@ def _listening(host: str, port: int) -> socket.socket:
 
 def _query(case: Path, also: tuple[Any, ...]) -> str:
     """Return the query of a link to a case file, including a material in a separate file."""
-    from viscotack.app.operations.parts.library import material_table
+    from viscotack.app.operations.parts.solid import material_table
     from viscotack.files.toml import read_toml
     from viscotack.model.problem.case_file import case_of_tables, read_case
 

@@ -1,8 +1,14 @@
-"""Run a request from the command line: its progress, its files, and its answer."""
+"""Run a request from the command line: its progress, its files, and its answer.
 
+Output files of commands: checked before the work, and failures reported after it.
+"""
+
+import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from errno import EEXIST
+from itertools import combinations
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -10,10 +16,119 @@ from typing import Any
 import typer
 
 from viscotack.app.operations.options import Output
-from viscotack.app.operations.request import Caller, Request, answered
+from viscotack.app.operations.request import Answer, Caller, Request, answered
+from viscotack.errors import InputError
 from viscotack.files.text import harmless
+from viscotack.files.whole import NotWritten, check_target, is_standard_output, same_file
+from viscotack.plot.style import check_format, save_figure
 
-from .writing import checked, finish
+
+def checked(
+    files: Mapping[Output, Path | None], *, force: bool, as_json: bool
+) -> dict[Output, Path | None]:
+    """Return the files to write, including default ones, checked before the work starts.
+
+    Parameters
+    ----------
+    files : mapping
+        Output -> file; None where not given.
+    force : bool
+        Whether files that exist may be replaced.
+    as_json : bool
+        Whether the answer is one JSON object on standard output.
+
+    Raises
+    ------
+    InputError
+        If a file is missing or used twice, has the ending of another format, exists or cannot be
+        written.
+    """
+    found = {
+        output: Path(output.usual) if file is None and output.usual and not as_json else file
+        for output, file in files.items()
+    }
+    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
+        raise InputError(f"{missing[0]} is missing; give the output file")
+    given = {output: file for output, file in found.items() if file is not None}
+    for output, file in given.items():
+        flag = output.flag
+        if is_standard_output(file):
+            if output.kind != "text" or as_json:
+                why = "is for text" if output.kind != "text" else "has the answer of --json"
+                raise InputError(f"{flag} {file}: standard output {why}; give a file name")
+        else:
+            if output.kind == "picture":
+                check_format(file)
+            known = ("", *output.endings)
+            if output.endings and file.suffix.lower() not in known:
+                raise InputError(f"{flag} {file}: the ending must be {' or '.join(output.endings)}")
+            check_target(file)
+            # an empty file, of mktemp for example, holds nothing to lose
+            if not force and file.is_file() and file.stat().st_size:
+                raise InputError(
+                    f"{flag} {file} exists; give another name, or --force to replace it"
+                )
+    for (one, first), (other, second) in combinations(given.items(), 2):
+        if same_file(first, second):
+            raise InputError(
+                f"{one.flag} {first} and {other.flag} {second} are the same file; give two "
+                "different names"
+            )
+
+    return found
+
+
+def finish(
+    answer: Answer, files: Mapping[Output, Path | None], as_json: bool, read: Sequence[Path] = ()
+) -> None:
+    """Write the files of an answer, print it, and exit with its status.
+
+    A file that cannot be written, or was read, does not stop the others; the status is then 2. If a
+    table goes to standard output, the answer goes to standard error.
+    """
+    failed, is_taken = False, False
+    reader_left: BrokenPipeError | None = None
+    for output, file in files.items():
+        if file is None or output.name not in answer.files.keys() | answer.pictures.keys():
+            continue
+        to_output = is_standard_output(file)
+        is_taken |= to_output
+        try:
+            if any(same_file(file, each) for each in read):
+                words = f"cannot write {file}: it is an input of this command; give another name"
+                raise NotWritten(EEXIST, words)
+            if output.name in answer.pictures:
+                save_figure(answer.pictures[output.name](), file)
+            else:
+                answer.files[output.name](typer.get_binary_stream("stdout") if to_output else file)
+        except BrokenPipeError as error:
+            reader_left = error
+        except OSError as error:
+            known = isinstance(error, NotWritten)
+            words = error if known else f"cannot write to standard output: {error.strerror}"
+            typer.echo(f"viscotack: {words}", err=True)
+            failed = True
+        else:
+            if not to_output:
+                typer.echo(f"wrote {file}", err=True)
+    for note in answer.notes:
+        typer.echo(harmless(note), err=True)
+    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)
+    try:
+        if text:
+            typer.echo(harmless(text), err=is_taken)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        name = "standard error" if is_taken else "standard output"
+        raise InputError(f"cannot write to {name}: {error.strerror}") from None
+    if failed:
+        raise typer.Exit(2)
+    if reader_left is not None:
+        raise reader_left  # Typer ends the command silently
+    if answer.status:
+        raise typer.Exit(answer.status)
+
 
 # Seconds between two lines of progress.
 LINES = 10.0

@@ -7,14 +7,14 @@ from collections.abc import Callable, Sequence
 from contextlib import chdir
 from typing import Any
 
-from viscotack.app.operations.parts.json_data import plain
+from viscotack.app.operations.parts.tables import plain
 from viscotack.app.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 from viscotack.errors import InputError
 
 
 def warm() -> None:
     """Run slow initialisations once."""
-    from viscotack.app.operations.parts.examples import FIRST
+    from viscotack.app.operations.parts.solid import FIRST
     from viscotack.model.problem.accuracy import LOOSEST_ACCURACY
     from viscotack.model.problem.case_file import case_of_tables
     from viscotack.simulate import solve

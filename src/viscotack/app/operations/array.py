@@ -44,7 +44,7 @@ class OfArray(Request):
         """Pull the array, and hold its load, telling ``share``."""
         from viscotack.design import read_array
         from viscotack.design.arrays import array_yield, holding, preload_after, pull_array
-        from viscotack.plot.array import draw_array
+        from viscotack.plot.design import draw_array
 
         from .parts.tables import rows_as_csv
 

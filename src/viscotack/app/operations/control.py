@@ -82,7 +82,7 @@ class Control(Request):
         """Tabulate, telling ``share``; release on the simulated rig if a force is wanted."""
         from viscotack.design.control import Release, c_header, fmu, force_table, let_go
         from viscotack.files.whole import write_whole
-        from viscotack.plot.control import draw_control
+        from viscotack.plot.design import draw_control
 
         from .parts.tables import rows_as_csv
 

@@ -1,4 +1,9 @@
-"""The operations ``identify ...``: fit the interface to measured curves."""
+"""The operations ``identify ...``: fit the interface to measured curves.
+
+The operation ``identify approach``: range of attraction from the forces before the contact. The
+operation ``identify curves``: work of adhesion and modulus of every curve of a folder. The
+operation ``identify dwell``: growth of the work of adhesion with contact time.
+"""
 
 import os
 from collections.abc import Callable
@@ -6,14 +11,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
+from viscotack.app.operations.options import (
+    Number,
+    csv_file,
+    main_file,
+    named,
+    number,
+    option,
+    picture,
+    switch,
+)
+from viscotack.app.operations.parts.record_words import read
+from viscotack.app.operations.parts.rig import Rig, refusals
+from viscotack.app.operations.parts.solid import OnLayer, Solid, solid_of
+from viscotack.app.operations.request import Answer, Caller
+from viscotack.app.operations.simulate import HowLong
 from viscotack.errors import InputError
-
-from .options import Number, main_file, named, number, option, picture, switch
-from .parts.layer import OnLayer
-from .parts.rig import Rig, refusals
-from .parts.solid import Solid, solid_of
-from .request import Answer, Caller
-from .simulate import HowLong
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
@@ -325,3 +338,219 @@ def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:
     fits = [{n: x for n, x in fit.items() if n != "intervals"} for fit in record["fits"]]
     shown = {name: record[name] for name in ("words", "against", "points", "evidence")}
     return shown | {"fits": fits}
+
+
+class IdentifyApproach(Rig):
+    """Bound the range of attraction by the approach, before the jump into contact.
+
+    Every cycle with an approach gives an upper bound of h0 and, where an attraction is seen before
+    the jump-in, an interval. The compliance of the rig is that of its spring: it decides where the
+    contact jumps. The work of adhesion lies between that of the jump-in and that of the pull-off,
+    unless it is given. An interface whose fitted range (`viscotack identify rates`) exceeds the
+    bound has a fitted length of the crack's zone, not a range of attraction.
+
+    Example: viscotack identify approach sphere_*.csv --radius "7.5 um" --contact-modulus "1.9 MPa"
+    --compliance "332 mm/N"
+    """
+
+    word: ClassVar = "identify approach"
+
+    radius: Radius
+    contact_modulus: float | None = number(
+        'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.', "Pa"
+    )
+    material: Any = named(
+        "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
+        "once is the other limit."
+    )
+    work_of_adhesion: float | None = number(
+        'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"
+    )
+    level: Level = 0.9
+
+    def answer(self, caller: Caller) -> Answer:
+        """Bound the range by every approach."""
+        from viscotack.identify.approach import identify_approaches
+        from viscotack.model.materials.passport import Passport
+
+        modulus, instantaneous = self.contact_modulus, None
+        if (modulus is None) == (self.material is None):
+            raise InputError("give either contact_modulus or material", field="contact_modulus")
+        if modulus is None:
+            solid = Passport.of(solid_of(self.material, caller)).material
+            modulus = solid.contact_modulus
+            instantaneous = modulus / solid.modulus_ratio
+        survey = self.survey(caller)
+        fits, refused = identify_approaches(
+            survey.cycles,
+            contact_modulus=modulus,
+            instantaneous=instantaneous,
+            **self.values("radius", "work_of_adhesion", "level"),
+        )
+        if not fits:
+            raise InputError("; ".join(dict.fromkeys(refused)), field="files")
+        return Answer(
+            fits,
+            data=lambda: {"approaches": [_record_of_approach(fit) for fit in fits]},
+            notes=(*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused))),
+        )
+
+
+def _record_of_approach(fit: Any) -> dict[str, Any]:
+    """Return the numbers of one approach."""
+    interval = fit.equilibrium_gap
+    names = ("bound_m", "level", "attraction_N", "noise_N", "jump_in_force_N", "step_m", "words")
+    return read(fit, *names) | {
+        "equilibrium_gap_m": fit.likely,
+        "interval_m": None if interval is None else [interval.low, interval.high],
+        "works_of_adhesion_J_m2": fit.works,
+        "samples_during_jump": fit.during,
+    }
+
+
+class IdentifyCurves(Rig):
+    """Fit JKR or DMT to every retraction: work of adhesion, contact modulus and their scatter.
+
+    For a folder of force curves, hundreds if need be: each curve gives the work of adhesion and the
+    contact modulus with the standard error of its fit, each temperature and speed their means,
+    standard deviations and intervals between the curves. A work that grows with speed contains
+    losses of the solid and is an upper bound; `viscotack identify slow` examines one curve.
+
+    Example: viscotack identify curves curves --radius "7.5 um" --plot curves.png
+    """
+
+    word: ClassVar = "identify curves"
+    outputs: ClassVar = (
+        csv_file("Write a row for each curve."),
+        csv_file("Write a row for each temperature and speed.", "repeats"),
+        picture(),
+    )
+
+    radius: Radius
+    model: Literal["jkr", "dmt"] = option(
+        "Elastic contact: jkr for soft and large spheres, dmt for stiff and small ones.",
+        default="jkr",
+    )
+    contact_modulus: float | None = number(
+        'Known E0* of the relaxed solid, "1.94 MPa"; default: fitted.', "Pa"
+    )
+    contact_modulus_uncertainty: float | None = number(
+        "Its standard uncertainty; needed with it.", "Pa"
+    )
+    level: Level = 0.9
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the curves one by one."""
+        from viscotack.identify import fit_curves, group_curves
+        from viscotack.plot.interface import draw_curves
+
+        from .parts.tables import rows_as_csv
+
+        survey = self.survey(caller)
+        fits, refused = fit_curves(
+            survey.cycles,
+            contact_modulus=self.known("contact_modulus"),
+            **self.values("radius", "model"),
+        )
+        if not fits:
+            raise InputError("; ".join(refused), field="files")
+        groups = group_curves(fits, self.level)
+        rows, means = [_curve(fit) for fit in fits], [_group(group) for group in groups]
+        return Answer(
+            groups,
+            data=lambda: {
+                "model": self.model,
+                "level": self.level,
+                "curves": rows,
+                "repeats": means,
+                "refused": refused,
+            },
+            words=lambda: {"model": self.model, "repeats": means},
+            files={"csv": rows_as_csv(rows), "repeats": rows_as_csv(means)},
+            pictures={"plot": lambda: draw_curves(groups)},
+            notes=(*refusals(survey), *(f"refused: {why}" for why in refused)),
+        )
+
+
+def _curve(fit: Any) -> dict[str, Any]:
+    cycle = fit.cycle
+    return {
+        "file": cycle.source.path,
+        "cycle": cycle.number,
+        "speed_m_s": cycle.speed.value,
+        "pull_off_force_N": cycle.pull_off_force.value,
+        "work_of_adhesion_J_m2": fit.work_of_adhesion.value,
+        "work_of_adhesion_J_m2_uncertainty": fit.work_of_adhesion.uncertainty,
+        "contact_modulus_Pa": fit.contact_modulus.value,
+        "contact_modulus_Pa_uncertainty": fit.contact_modulus.uncertainty,
+        "scatter_N": fit.scatter,
+        "temperature_K": cycle.temperature,
+    }
+
+
+def _group(group: Any) -> dict[str, Any]:
+    row: dict[str, Any] = {"speed_m_s": group.speed, "curves": len(group.curves)}
+    units = {"work_of_adhesion": "J_m2", "contact_modulus": "Pa", "pull_off_force": "N"}
+    for name, unit in units.items():
+        mean = getattr(group, name)
+        row |= {
+            f"{name}_{unit}_mean": mean.value,
+            f"{name}_{unit}_standard_deviation": mean.deviation,
+            f"{name}_low_{unit}": mean.low,
+            f"{name}_high_{unit}": mean.high,
+        }
+    return row | {"temperature_K": group.temperature}
+
+
+class IdentifyDwell(Rig):
+    """Identify the growth of the work of adhesion with contact time, from tests of several dwells.
+
+    All tests are slow pulls of one sphere at one speed, so that the solid is relaxed and the force
+    of the pull-off is proportional to the work of adhesion (JKR). The answer states the work, its
+    growth in a decade of contact time and, if the data determine it, the law that an interface file
+    takes. A solid whose modulus relaxes between the dwells is refused. Tests of several speeds go
+    to `viscotack identify rates` or `viscotack identify edge`.
+
+    Example: viscotack identify dwell lens_dwell_*.csv --material pdms-10-1 --radius "5.19 mm"
+    --plot dwell.png
+    """
+
+    word: ClassVar = "identify dwell"
+    outputs: ClassVar = (picture("Draw force by contact time."),)
+
+    material: Solid
+    radius: Radius
+    level: Level = 0.9
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the growth to the pull-off forces of all cycles."""
+        from viscotack.identify.contact_time import check_relaxed, identify_dwell, tests_by_dwell
+        from viscotack.model.materials.passport import Passport
+        from viscotack.plot.interface import draw_dwells
+
+        found = self.survey(caller)
+        times, forces, uncertainty = tests_by_dwell(found.cycles)
+        solid = Passport.of(solid_of(self.material, caller))
+        solid.refuse_liquid("its contacts do not relax, so that the growth is not identified")
+        check_relaxed(solid.material, times)
+        fit = identify_dwell(
+            times, forces, radius=self.radius, uncertainty=uncertainty, level=self.level
+        )
+        return Answer(
+            fit,
+            data=lambda: _record_of_dwell(fit),
+            pictures={"plot": lambda: draw_dwells(fit)},
+            notes=refusals(found),
+        )
+
+
+def _record_of_dwell(fit: Any) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    tails = {"work_of_adhesion": "_J_m2", "reference_time": "_s"}
+    return {
+        **read(fit, "times_s", "forces_N", "work_of_adhesion_J_m2", "growth_per_decade"),
+        "growth_interval": fit.interval,
+        **read(fit, "level", "scatter", "law", "words"),
+        "interface": {f"{name}{tails.get(name, '')}": x for name, x in fit.parameters.items()},
+        "reference_time_interval_s": fit.reference_time,
+    }

@@ -79,7 +79,7 @@ class NextTest(Request):
         from viscotack.clock import limited
         from viscotack.identify import Trial, next_tests
         from viscotack.identify.ranked_tests import INTERFACE
-        from viscotack.plot.next_tests import draw_next_tests
+        from viscotack.plot.interface import draw_next_tests
 
         from .parts.tables import rows_as_csv
 

@@ -78,13 +78,14 @@ class Answer:
 
     def record(self) -> Any:
         """Return the record as plain data, as printed by ``--json`` and returned over HTTP."""
-        from .parts.json_data import plain
+        from viscotack.app.operations.parts.tables import plain
 
         return plain(self.data())
 
     def __str__(self) -> str:
         """Return the text for the terminal."""
-        from .parts.json_data import plain
+        from viscotack.app.operations.parts.tables import plain
+
         from .parts.record_words import record_words
 
         shown = self.data() if self.words is None else self.words()

@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import Any, ClassVar
 
+from viscotack.app.operations.parts.dma import ShiftLaw
+from viscotack.app.operations.parts.tables import drawn
 from viscotack.errors import InputError
 
 from .options import binary_file, csv_file, number, picture
-from .parts.json_data import drawn
 from .parts.rig import Rig, refusals
-from .parts.shifting import ShiftLaw
 from .request import Answer, Caller
 
 _MOST = 1500  # points of a curve on the page
@@ -64,6 +64,7 @@ class ReadTests(Rig, ShiftLaw):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
+        from viscotack.app.operations.parts.tables import as_workbook
         from viscotack.lab.tack.repeats import speed_table
         from viscotack.plot.tack import draw_tests
 
@@ -76,7 +77,6 @@ class ReadTests(Rig, ShiftLaw):
             tests_record,
         )
         from .parts.tables import rows_as_csv
-        from .parts.workbook import as_workbook
 
         found = self.survey(caller)
         law = self.referred(caller)

@@ -99,11 +99,10 @@ class Sweep(Request):
 
 def _row(kind: "Kind", inputs: dict[str, float], settings: "CaseSettings") -> dict[str, Any]:
     """Return the row of a case: inputs, results, and the reason if it failed."""
+    from viscotack.app.operations.parts.tables import plain
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
     from viscotack.model.problem.record import run_id
-
-    from .parts.json_data import plain
 
     began = perf_counter()
     row: dict[str, Any] = {"inputs": inputs, "outputs": None, "reason": ""}

@@ -5,12 +5,12 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
+from viscotack.app.operations.parts.solid import OnLayer
 from viscotack.errors import InputError
 from viscotack.files.text import write_table
 
 from .options import Number, contact, csv_file, number, picture, quoted
 from .parts.closed_form import closed_form
-from .parts.layer import OnLayer
 from .parts.record_words import read
 from .request import Answer, Caller, Request
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.theory.crack.steady.comparison import THESIS_RATIO
+from viscotack.theory.crack.steady.cracks import THESIS_RATIO
 from viscotack.units import is_number, parse
 
 from .flags import LAW

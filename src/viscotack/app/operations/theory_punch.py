@@ -55,7 +55,7 @@ class OfPad(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
-        from viscotack.plot.regimes import draw_regimes
+        from viscotack.plot.design import draw_regimes
 
         pad, solid, wanted = self._pad(caller)
         # overflow must raise an error rather than return nan

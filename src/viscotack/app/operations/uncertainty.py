@@ -90,7 +90,7 @@ class OfUncertainty(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Predict the drawn problems, telling ``share``."""
-        from viscotack.plot.uncertainty import draw_uncertainty
+        from viscotack.plot.prediction import draw_uncertainty
         from viscotack.prediction.uncertainty import uncertainty
 
         from .parts.tables import rows_as_csv
@@ -141,7 +141,7 @@ class OfUncertainty(Request):
         if given and problem.scales() is None:
             raise InputError(f"`{given[0]}` needs a problem with dimensions, in SI")
         if self.passport is not None:
-            from viscotack.model.materials.passport_uncertainty import known_of
+            from viscotack.model.materials.passport import known_of
 
             passport = passport_of(self.passport, caller)
             if self.temperature is not None:

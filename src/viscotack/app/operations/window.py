@@ -47,7 +47,7 @@ class OfWindow(Request):
         """Evaluate every speed and preload of each map, telling ``share``."""
         from viscotack.design import read_window
         from viscotack.design.window import window
-        from viscotack.plot.window import draw_window
+        from viscotack.plot.design import draw_window
 
         from .parts.tables import rows_as_csv
 

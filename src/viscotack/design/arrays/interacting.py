@@ -23,7 +23,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.simulate.force_curve import Curve
+from viscotack.simulate.curve_family import Curve
 
 # Smallest distance of two pads over the contact radius at the start.
 LEAST_SPACING = 4.0

@@ -36,8 +36,7 @@ from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.problem import Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.simulate.curve_family import Family, Pull, family
-from viscotack.simulate.force_curve import Curve, side_by_side
+from viscotack.simulate.curve_family import Curve, Family, Pull, family, side_by_side
 
 from .interacting import coupled, interactions
 

@@ -26,7 +26,7 @@ from viscotack.model.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.modes import reciprocal
 
 from .errors import errors
 from .observed import Observed

@@ -1,8 +1,9 @@
 """Rigid indenter shapes, and the bodies under them."""
 
-from .bases import Base, Bonded, Frictionless
+from viscotack.model.geometry.bodies import Base, Bonded, Frictionless
+from viscotack.model.geometry.shapes import Disc, WavySphere
+
 from .bodies import Body, HalfSpace, Layer
-from .disc import Disc
 from .measured import MeasuredProfile
 from .shapes import (
     Cone,
@@ -16,7 +17,6 @@ from .shapes import (
     equivalent_radius,
     numbers,
 )
-from .wavy import WavySphere
 
 # Word in a file -> class.
 SHAPES = {

@@ -51,7 +51,7 @@ from scipy.interpolate import PPoly
 from scipy.special import xlogy, zeta
 
 from viscotack.errors import InputError
-from viscotack.model.geometry.bases import Base
+from viscotack.model.geometry.bodies import Base
 from viscotack.model.geometry.gauss import gauss
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).

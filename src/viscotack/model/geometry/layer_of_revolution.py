@@ -28,7 +28,7 @@ from scipy.sparse import csr_array
 from scipy.special import j0
 
 from viscotack.errors import InputError
-from viscotack.model.geometry.bases import Base
+from viscotack.model.geometry.bodies import Base
 from viscotack.model.geometry.gauss import gauss
 from viscotack.model.geometry.half_space import influence as half_space_influence
 from viscotack.model.geometry.layer import own_displacement

@@ -1,5 +1,8 @@
 """Indenter shapes: the gap between the rigid indenter and the flat body at first contact.
 
+Sphere with axisymmetric waves (Guduru). Disc: flat end of a cylinder with a sharp or a rounded
+edge.
+
 A shape of revolution implements :meth:`gap`, its derivative :meth:`flank`, and :meth:`reduced`,
 which returns the shape in other units of length. `word` is its name in files. A shape whose slope
 decreases somewhere has a length over which it changes (:func:`detail`). A shape known only to some
@@ -8,9 +11,11 @@ explains an example. The attribute `symmetry` determines scales, limits and outp
 or "plane" for the flat punch in plane strain.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import log
+from math import log, pi, sqrt
 from typing import Annotated, Any, ClassVar, Protocol
 
 import numpy as np
@@ -18,7 +23,7 @@ import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.cards import Checked, Quantity
+from viscotack.cards import Checked, Quantity, conform
 from viscotack.errors import InputError
 
 # Decades of radius [m] over which a shape of revolution is examined.
@@ -39,7 +44,7 @@ class Shape(Protocol):
         """Return the slope of the gap at a distance from the axis [m]; see :func:`detail`."""
         ...
 
-    def reduced(self, along: float, height: float) -> "Shape":
+    def reduced(self, along: float, height: float) -> Shape:
         """Return the shape with distances in `along` [m] and gaps in `height` [m]."""
         ...
 
@@ -82,7 +87,7 @@ class Sphere(Checked):
         """Return its radius [m], whatever the material's length."""
         return self.radius
 
-    def reduced(self, along: float, height: float) -> "Sphere":
+    def reduced(self, along: float, height: float) -> Sphere:
         """Return the sphere with distances in `along` [m] and gaps in `height` [m]."""
         return Sphere(_snapped(self.radius * height / along**2, 1.0))
 
@@ -133,7 +138,7 @@ class FlatPunch(Checked):
         float, Quantity("m", "a", "half width of the punch", above=0, example="1 mm")
     ]
 
-    def reduced(self, along: float, height: float) -> "FlatPunch":
+    def reduced(self, along: float, height: float) -> FlatPunch:
         """Return the punch with distances in `along` [m]; it has no height."""
         return FlatPunch(self.half_width / along)
 
@@ -208,7 +213,7 @@ class PowerLawProfile(_PowerLaw):
         ),
     ]
 
-    def reduced(self, along: float, height: float) -> "PowerLawProfile":
+    def reduced(self, along: float, height: float) -> PowerLawProfile:
         """Return the profile with distances in `along` [m] and gaps in `height` [m]."""
         A, q = self.coefficient, self.exponent
         return PowerLawProfile(_snapped(A * along**q / height, 1 / q), q)
@@ -247,7 +252,7 @@ class Cone(_PowerLaw):
         """That of a cone as a power law, 1."""
         return 1.0
 
-    def reduced(self, along: float, height: float) -> "Cone":
+    def reduced(self, along: float, height: float) -> Cone:
         """Return the cone with distances in `along` [m] and gaps in `height` [m]."""
         return Cone(_snapped(self.slope * along / height, 1.0))
 
@@ -304,3 +309,174 @@ def numbers(noun: Any) -> Mapping[str, float]:
 def _snapped(value: float, to: float) -> float:
     """Return a number, without the round-off of scales where it is the expected one."""
     return to if abs(value / to - 1) < 1e-9 else value
+
+
+@dataclass(frozen=True)
+class WavySphere(Checked):
+    r"""Rigid sphere with rings of waves around its axis.
+
+    .. math:: f(r) = \frac{r^2}{2R} + A \left(1 - \cos\frac{2 \pi r}{\lambda}\right)
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the sphere R [m]; positive.
+    amplitude : float
+        Amplitude of the waves A [m]; positive. The tip is the lowest place.
+    wavelength : float
+        Distance from ring to ring lambda [m]; positive.
+
+    References
+    ----------
+    Guduru (2007), doi:10.1016/j.jmps.2006.09.002.
+
+    Examples
+    --------
+    >>> wavy = WavySphere(radius=0.2, amplitude=1e-6, wavelength=1e-3)
+    >>> f"{wavy.gap(0.5e-3) * 1e6:.3f} um"
+    '2.625 um'
+    """
+
+    word: ClassVar[str] = "wavy-sphere"
+    symmetry: ClassVar[str] = "revolution"
+
+    radius: Annotated[float, Quantity("m", "R", "sphere radius", above=0, example="200 mm")]
+    amplitude: Annotated[
+        float, Quantity("m", "A", "amplitude of the waves", above=0, example="1 um")
+    ]
+    wavelength: Annotated[
+        float, Quantity("m", "lambda", "distance from wave to wave", above=0, example="0.5 mm")
+    ]
+
+    def gap(self, position: npt.ArrayLike) -> Array:
+        """Return the undeformed gap [m] at a distance from the axis [m]."""
+        r = np.asarray(position, dtype=float)
+        # the versine without its cancellation near the tip
+        waves = 2 * self.amplitude * np.sin(pi * r / self.wavelength) ** 2
+        return r * r / (2 * self.radius) + waves
+
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope at a distance from the axis [m]; it falls behind each crest."""
+        r, k = np.asarray(position, dtype=float), 2 * pi / self.wavelength
+        return r / self.radius + self.amplitude * k * np.sin(k * r)
+
+    @property
+    def detail(self) -> float:
+        """The length over which the slope changes [m], half a wave."""
+        return self.wavelength / 2
+
+    def equivalent_radius(self, length: float) -> float:
+        """Return the radius of the sphere under the waves [m]."""
+        return self.radius
+
+    def reduced(self, along: float, height: float) -> WavySphere:
+        """Return the shape with distances in `along` [m] and gaps in `height` [m]."""
+        radius = Sphere(self.radius).reduced(along, height).radius
+        return WavySphere(radius, self.amplitude / height, self.wavelength / along)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Dimensionless numbers of the shape, by name."""
+        return {"amplitude": self.amplitude, "wavelength": self.wavelength}
+
+
+@dataclass(frozen=True)
+class Disc:
+    r"""Rigid cylinder with a flat end: the stamp of transfer printing, the probe of tack tests.
+
+    A rounded edge rises like a parabola over its width w to its height h,
+
+    .. math:: f(r) = h \left(\frac{r - (a - w)}{w}\right)^2, \quad a - w < r \le a,
+
+    for a quarter of a circle of radius rho about w = rho, h = rho/2. Beyond a there is nothing.
+
+    It has the scales of a sphere of radius :math:`R = a \sqrt{a E_0^*/\Delta\gamma_0}`, so that
+    :math:`\beta = a` and :math:`\mu = \sqrt{a \Delta\gamma_0/E_0^*}/h_0`: Kendall's pull-off force
+    is 1.064 of :math:`1.5 \pi R \Delta\gamma_0`, at a depth of :math:`-\sqrt{2\pi}\mu h_0`.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the cylinder a [m]; positive.
+    edge_width : float
+        Width over which the edge is rounded w [m], up to a; 0 for a sharp edge.
+    edge_height : float
+        Rise of the edge h [m]; 0 for a sharp edge.
+
+    Examples
+    --------
+    >>> stamp = Disc(radius=1e-3, edge_width=20e-6, edge_height=10e-6)
+    >>> [f"{height * 1e6:.1f} um" for height in stamp.gap([0.5e-3, 0.99e-3, 1e-3])]
+    ['0.0 um', '2.5 um', '10.0 um']
+    """
+
+    word: ClassVar[str] = "disc"
+    symmetry: ClassVar[str] = "revolution"
+
+    radius: Annotated[float, Quantity("m", "a", "radius of the cylinder", above=0, example="1 mm")]
+    edge_width: Annotated[
+        float,
+        Quantity("m", "w", "width over which the edge is rounded", least=0, example="20 um"),
+    ] = 0.0
+    edge_height: Annotated[
+        float, Quantity("m", "h", "rise of the rounded edge", least=0, example="10 um")
+    ] = 0.0
+
+    def __post_init__(self) -> None:
+        conform(self)
+        if (self.edge_width > 0) != (self.edge_height > 0) or self.edge_width > self.radius:
+            raise InputError(
+                "a rounded edge has a width, up to the radius, and a height; leave out both for a "
+                f"sharp one, got {self.edge_width:g} m and {self.edge_height:g} m"
+            )
+
+    @property
+    def is_sharp(self) -> bool:
+        """Whether its edge is not rounded."""
+        return self.edge_width == 0
+
+    def gap(self, position: npt.ArrayLike) -> Array:
+        """Return the undeformed gap [m] at a distance from the axis [m], continued beyond a."""
+        over = np.maximum(np.asarray(position, dtype=float) - self._flat, 0.0)
+        return np.zeros_like(over) if self.is_sharp else self._bend / 2 * over * over
+
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope at a distance from the axis [m]."""
+        over = np.maximum(np.asarray(position, dtype=float) - self._flat, 0.0)
+        return np.zeros_like(over) if self.is_sharp else self._bend * over
+
+    @property
+    def end(self) -> float:
+        """The radius at which it ends [m]."""
+        return self.radius
+
+    @property
+    def detail(self) -> float:
+        """The length over which its slope changes [m]."""
+        return self.edge_width or self.radius
+
+    def equivalent_radius(self, length: float) -> float:
+        """Return the radius [m] of the sphere with the same scales, for dg0/E0* [m]."""
+        return self.radius * sqrt(self.radius / length)
+
+    def reduced(self, along: float, height: float) -> Disc:
+        """Return the disc with distances in `along` [m] and gaps in `height` [m]."""
+        radius = self.radius / along
+        # without the round-off of scales, where it is 1
+        radius = 1.0 if abs(radius - 1) < 1e-9 else radius
+        return Disc(radius, self.edge_width / along, self.edge_height / height)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Dimensionless numbers of the shape, by name."""
+        if self.is_sharp:
+            return {}
+        return {"edge_width": self.edge_width, "edge_height": self.edge_height}
+
+    @property
+    def _flat(self) -> float:
+        return self.radius - self.edge_width
+
+    @property
+    def _bend(self) -> float:
+        return 2 * self.edge_height / self.edge_width**2

@@ -9,17 +9,17 @@ import numpy.typing as npt
 
 from viscotack.cards import Pairs, conform
 from viscotack.errors import InputError
-from viscotack.model.materials import checks
-from viscotack.model.materials.checks import like_input, nonnegative
+from viscotack.model.materials import constants
 from viscotack.model.materials.constants import (
     GlassyModulus,
     PoissonRatio,
     RetardationTime,
     RubberyModulus,
+    like_input,
+    nonnegative,
 )
-from viscotack.model.materials.interconversion import reciprocal
 from viscotack.model.materials.material import Complex, Real, Solid
-from viscotack.model.materials.modes import Modes, compressed, maxwell, voigt
+from viscotack.model.materials.modes import Modes, compressed, maxwell, reciprocal, voigt
 from viscotack.units import positive
 
 _MOST_BRANCHES = 10_000
@@ -167,7 +167,7 @@ class Prony(Solid):
     Notes
     -----
     The creep compliance is exact: its retardation times are the zeros of the modulus between the
-    relaxation times, see :func:`viscotack.model.materials.interconversion.reciprocal`.
+    relaxation times, see :func:`viscotack.model.materials.modes.reciprocal`.
 
     References
     ----------
@@ -201,7 +201,7 @@ class Prony(Solid):
 
     def __post_init__(self):
         conform(self)
-        checks.store(self, branches=_sorted_branches(self.branches))
+        constants.store(self, branches=_sorted_branches(self.branches))
 
     @property
     def glassy_modulus(self) -> float:

@@ -1,8 +1,16 @@
-"""Cards of the constants shared by materials: name, unit, symbol, range, example."""
+"""Cards of the constants shared by materials: name, unit, symbol, range, example.
+
+Validation of the numbers and arrays given to a material, with error messages.
+"""
 
 from typing import Annotated, Any
 
+import numpy as np
+import numpy.typing as npt
+
 from viscotack.cards import Quantity, card_of
+from viscotack.errors import InputError
+from viscotack.units import positive
 
 RubberyModulus = Annotated[
     float,
@@ -65,3 +73,64 @@ ModulusRatio = Annotated[
 def poisson_ratio(value: Any) -> float:
     """Validate a Poisson ratio and return it as a float."""
     return card_of(PoissonRatio).checked("poisson_ratio", value)
+
+
+POSSIBLE = 100.0, 1000.0  # K: temperatures of tests on polymers
+
+
+def temperatures(name: str, values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return temperatures [K] as an array of floats; raise an error outside 100 to 1,000 K."""
+    array = np.asarray(values, dtype=float)
+    low, high = POSSIBLE
+    wrong = array[~((array >= low) & (array <= high))]  # true for nan as well
+    if wrong.size:
+        raise InputError(
+            f"{name} must lie between {low:g} and {high:g} K, got {wrong[0]:g} K; "
+            "give Celsius + 273.15"
+        )
+    return array
+
+
+def stiffens(material: Any) -> None:
+    """Raise an error if the short-time modulus is below the long-time one."""
+    glassy, rubbery = material.glassy_modulus, material.rubbery_modulus
+    if glassy < rubbery:
+        raise InputError(
+            "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
+            f"{glassy:g} Pa < {rubbery:g} Pa; check whether they are interchanged"
+        )
+
+
+def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:
+    """Validate the time window [s] and tolerance of a set of modes; return them as floats."""
+    shortest = positive("shortest", shortest, "s")
+    longest = positive("longest", longest, "s")
+    tolerance = positive("tolerance", tolerance, "1/rubbery_modulus")
+    if longest < shortest:
+        raise InputError(f"longest must not be below shortest, got {longest:g} s < {shortest:g} s")
+    if tolerance >= 1:
+        raise InputError(
+            "tolerance is relative to the rubbery compliance and must be below 1, got "
+            f"{tolerance:g}"
+        )
+    return shortest, longest, tolerance
+
+
+def nonnegative(name: str, values: npt.ArrayLike, unit: str) -> npt.NDArray[np.float64]:
+    """Return times or frequencies in [0, inf] as an array of floats; raise an error otherwise."""
+    array = np.asarray(values, dtype=float)
+    wrong = array[~(array >= 0)]  # true for nan as well
+    if wrong.size:
+        raise InputError(f"{name} must not be negative or nan, got {wrong[0]} {unit}")
+    return array
+
+
+def like_input(values: Any) -> Any:
+    """Return a Python number for zero-dimensional values, the array itself otherwise."""
+    return values.item() if values.ndim == 0 else values
+
+
+def store(instance: Any, **checked: Any) -> None:
+    """Set the validated fields of a frozen dataclass; only for its __post_init__."""
+    for name, value in checked.items():
+        object.__setattr__(instance, name, value)

@@ -26,13 +26,14 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.model.materials.checks import like_input, nonnegative
 from viscotack.model.materials.constants import (
     FractionalOrder,
     GlassyModulus,
     PoissonRatio,
     RetardationTime,
     RubberyModulus,
+    like_input,
+    nonnegative,
 )
 from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import FINEST, ROUNDING, Modes, blockwise, compressed

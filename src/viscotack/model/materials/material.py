@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import conform
-from viscotack.model.materials import checks
+from viscotack.model.materials import constants
 from viscotack.model.materials.modes import Modes
 
 Real = float | npt.NDArray[np.float64]
@@ -108,7 +108,7 @@ class Solid:
 
     def __post_init__(self) -> None:
         conform(self)
-        checks.stiffens(self)
+        constants.stiffens(self)
 
     @property
     def modulus_ratio(self) -> float:
@@ -135,7 +135,7 @@ class Solid:
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`."""
-        window = checks.window(shortest=shortest, longest=longest, tolerance=tolerance)
+        window = constants.window(shortest=shortest, longest=longest, tolerance=tolerance)
         if self.modulus_ratio == 1:
             return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
         return self._modes(*window)

@@ -18,7 +18,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.model.materials.checks import POSSIBLE, like_input, store, temperatures
+from viscotack.model.materials.constants import POSSIBLE, like_input, store, temperatures
 from viscotack.units import readable
 
 # c1 and c2 [K] at the glass transition (Eq. 4.25): averages over many polymers

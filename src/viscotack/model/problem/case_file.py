@@ -1,5 +1,7 @@
 """A problem as tables: the TOML file of a case, JSON, and the body of a request.
 
+Read a Prony series from a CSV file.
+
 docs/input.md describes the format; the keys of a table follow from the cards of its class. Tables
 in SI are [material], [interface], one for the shape, perhaps one for the body, and [protocol]; a
 dimensionless problem has [groups] in place of [protocol], and numbers without units. A rough
@@ -15,6 +17,7 @@ from typing import Annotated, Any
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
+from viscotack.files.text import read_rows
 from viscotack.files.toml import read_toml
 from viscotack.model.geometry import (
     Bonded,
@@ -29,16 +32,15 @@ from viscotack.model.geometry import (
 )
 from viscotack.model.materials import Elastic, Material, Prony
 from viscotack.model.materials.constants import ModulusRatio
+from viscotack.model.materials.conversion import scaled
 from viscotack.model.materials.library import MATERIALS, published
 from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport
-from viscotack.model.materials.scaling import scaled
 from viscotack.model.materials.words import word_of
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.law_table import law_from_table, table_of_law
 from viscotack.model.problem.nouns import known
 from viscotack.model.problem.problem import Case, Groups, Problem
-from viscotack.model.problem.prony_file import read_prony
 from viscotack.model.problem.protocol_table import (
     protocol_from_table,
     table_of_groups,
@@ -47,7 +49,63 @@ from viscotack.model.problem.protocol_table import (
 )
 from viscotack.model.problem.rough_case import RoughCase, StatedSurface, hash_of
 from viscotack.model.tables import OWN, Reading, read_as, refuse_unknown, stated
-from viscotack.units import parse, readable
+from viscotack.units import parse, positive, readable
+
+
+def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float], ...], str]:
+    """Read the branches of a Prony series from a CSV file, and the unit of their times.
+
+    Parameters
+    ----------
+    path : path
+        First row ``modulus_ratio,relaxation_time_s``, then one row per branch: its modulus over the
+        rubbery modulus, and its relaxation time. The unit ``s`` may be any unit of time (``ms``,
+        ``h``); ``relaxation_time`` without a unit means dimensionless times. Lines that begin with
+        ``#`` are ignored.
+
+    Returns
+    -------
+    tuple of (float, float), str
+        Branches as (modulus ratio, relaxation time in the file's unit), and that unit ("1" for
+        pure numbers).
+
+    Raises
+    ------
+    FileNotFoundError
+        If the file does not exist.
+    ValueError
+        If the header or a row is not as described; the message names the line.
+    """
+    path = Path(path)
+    header, rows = read_rows(path)
+    if (
+        len(header) != 2
+        or header[0] != "modulus_ratio"
+        or not header[1].startswith("relaxation_time")
+    ):
+        raise InputError(
+            f"{path}: the first row must be 'modulus_ratio,relaxation_time_s' (or another unit of "
+            f"time), got {','.join(header)!r}"
+        )
+    unit = header[1].removeprefix("relaxation_time").removeprefix("_") or "1"
+    if unit != "1":
+        try:
+            parse(f"1 {unit}", "s")
+        except ValueError as error:
+            raise InputError(f"{path}, the name of the second column: {error}") from None
+    branches = []
+    for line, row in rows:
+        try:
+            if len(row) != 2:
+                raise InputError(f"a row must be a modulus ratio and a time, got {','.join(row)!r}")
+            ratio, time = row
+            branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
+        except ValueError as error:
+            raise InputError(f"{path}, line {line}: {error}") from None
+    if not branches:
+        raise InputError(f"{path}: the file has no branch below the header")
+    return tuple(branches), unit
+
 
 Tables = Mapping[str, Any]
 # Largest thickness of a layer over the contact's length.

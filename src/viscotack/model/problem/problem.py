@@ -26,7 +26,7 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Body, FlatPunch, HalfSpace, Shape, Sphere, numbers
 from viscotack.model.materials import Material
 from viscotack.model.materials.constants import poisson_ratio as checked_poisson_ratio
-from viscotack.model.materials.scaling import scaled
+from viscotack.model.materials.conversion import scaled
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.outputs import Kind
 from viscotack.model.problem.plane import PunchScales

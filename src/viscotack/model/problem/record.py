@@ -1,17 +1,35 @@
-"""Problems as plain dictionaries for JSON, and their content-based ids."""
+"""Problems as plain dictionaries for JSON, and their content-based ids.
+
+JSON schema of a problem, and tables of its parameters; both are generated from the cards.
+"""
 
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING
 from pathlib import Path
 from typing import Any
 
+from viscotack.cards import Field, Pairs, Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.model.problem.case_file import problem_of, tables_of
+from viscotack.model.geometry import Bonded, Cone, HalfSpace, Layer, PowerLawProfile
+from viscotack.model.materials.constants import ModulusRatio
+from viscotack.model.problem import plane
+from viscotack.model.problem.case_file import (
+    LayerTable,
+    PassportTable,
+    ProfilePoint,
+    problem_of,
+    tables_of,
+)
+from viscotack.model.problem.law_table import STRENGTH
 from viscotack.model.problem.nouns import known
 from viscotack.model.problem.problem import Groups, Problem
-from viscotack.model.problem.rough_case import RoughCase
-from viscotack.model.tables import Reading
+from viscotack.model.problem.protocol_table import GroupsTable, ProtocolTable
+from viscotack.model.problem.rough_case import RoughCase, StatedSurface
+from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.tables import Reading, adapter
+from viscotack.model.traction import has_rest
 
 
 def to_dict(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
@@ -117,3 +135,140 @@ def run_id(case: Any) -> str:
     """
     text = json.dumps(to_dict(case), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+_TEXT: dict[str, Any] = {"type": "string"}
+
+
+def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
+    """Return the JSON schema of the tables of a problem, in SI or dimensionless.
+
+    It has the keys of each table with their units and ranges. Which of them must be given depends
+    on others (a strength or a gap, a file or numbers, [groups] or [protocol]); the reader says so.
+
+    Parameters
+    ----------
+    also : iterable of classes
+        User-defined laws, materials, shapes and bodies to include.
+
+    Examples
+    --------
+    >>> found = schema()["$defs"]["sphere"]["properties"]["radius"]
+    >>> found["unit"], found["anyOf"][0]["exclusiveMinimum"]
+    ('m', 0)
+    """
+    nouns = known(also)
+    file = {"file": _TEXT}
+    points = {PowerLawProfile.word: (PowerLawProfile, ProfilePoint, Cone)}
+    tables = {
+        **{
+            word: _keys(*points.get(word, (kind,)), more=file if "profile" in word else {})
+            for word, kind in nouns.shapes.items()
+        },
+        **{w: _keys(kind) for w, kind in nouns.bodies.items() if kind is not HalfSpace},
+        Layer.word: _keys(LayerTable),
+        "surface": _keys(StatedSurface),
+        "protocol": _keys(ProtocolTable),
+        "groups": _keys(GroupsTable),
+    }
+    tables["surface"]["kind"] = {"anyOf": [_TEXT, tables["surface"]["kind"]]}
+    solids = {
+        word: _keys(
+            kind,
+            more={"model": {"const": word}, "modulus_ratio": _json(card_of(ModulusRatio))} | file,
+        )
+        for word, kind in nouns.materials.items()
+    }
+    solids["passport"] = _keys(PassportTable)
+    resting = [law for law in nouns.laws.values() if not has_rest(law)]
+    laws = {
+        word: _keys(
+            *(resting if has_rest(kind) else ()),
+            kind,
+            more={"law": {"const": word}, "base": _TEXT, "strength": _json(STRENGTH)} | file,
+        )
+        for word, kind in nouns.laws.items()
+    }
+    return {
+        "title": "A problem of viscotack",
+        "type": "object",
+        "properties": {
+            "material": {"anyOf": [_reference(word) for word in solids]},
+            "interface": {"anyOf": [_reference(word) for word in laws]},
+            **{word: _reference(word) for word in tables},
+        },
+        "required": ["material"],
+        "additionalProperties": False,
+        "$defs": {
+            word: {"type": "object", "properties": keys, "additionalProperties": False}
+            for word, keys in {**tables, **solids, **laws}.items()
+        },
+    }
+
+
+def _reference(word: str) -> dict[str, str]:
+    return {"$ref": f"#/$defs/{word}"}
+
+
+def _json(card: Quantity) -> dict[str, Any]:
+    return card.__get_pydantic_json_schema__(None, None)
+
+
+def _keys(*kinds: Any, more: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Return the keys of a table that states one of these classes, with their schemas."""
+    from pydantic.json_schema import GenerateJsonSchema
+
+    class Tables(GenerateJsonSchema):
+        """A noun inside a noun is stated by its word."""
+
+        def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> dict[str, Any]:
+            return _TEXT
+
+    found: dict[str, Any] = {}
+    for kind in kinds:
+        found |= adapter(kind).json_schema(schema_generator=Tables)["properties"]
+    return found | dict(more or {})
+
+
+def words(also: Iterable[Any] = ()) -> str:
+    """Return Markdown tables of the parameters: word, symbol, unit and meaning."""
+    nouns = known(also)
+    rooms: Mapping[str, Any] = {
+        "Materials": nouns.materials.values(),
+        "Traction laws": nouns.laws.values(),
+        "Shapes and bodies": (*nouns.shapes.values(), *nouns.bodies.values(), Bonded),
+        "The test": (AtDepth, AtForce, AtRadius, Apart, Retraction),
+        "Dimensionless": (Groups,),
+    }
+    lines: list[str] = []
+    for title, kinds in rooms.items():
+        rows: dict[tuple[str, ...], list[str]] = {}
+        for kind in kinds:
+            for field in (*cards(kind).values(), *cards(kind, Pairs).values()):
+                rows.setdefault(_row(field), []).append(f"`{kind.__name__}`")
+        if title == "Dimensionless":
+            sizes = (Field(name, card, MISSING) for name, card in plane.SIZES.items())
+            rows |= {_row(field): ["a punch"] for field in sizes}
+        lines += [
+            f"### {title}",
+            "",
+            "| word | symbol | unit | meaning | of |",
+            "|---|---|---|---|---|",
+        ]
+        every = len(kinds) if len(kinds) > 1 else 0
+        classes = {row: "all" if len(of) == every else ", ".join(of) for row, of in rows.items()}
+        lines += [f"| {' | '.join(row)} | {of} |" for row, of in classes.items()]
+        lines.append("")
+    if nouns.observables:
+        lines += ["### Observables", "", "| name | measures | meaning |", "|---|---|---|"]
+        lines += [f"| `{x.name}` | {x.measure} | {x.words} |" for x in nouns.observables]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _row(field: Field) -> tuple[str, ...]:
+    """Return word, symbol, unit and meaning of a field."""
+    card = field.card
+    unit = card.unit if isinstance(card, Quantity) else ", ".join(card.units)
+    limits = f"; must {card.range}" if getattr(card, "range", "") else ""
+    return f"`{field.name}`", card.symbol, unit, f"{card.words}{limits}"

@@ -6,13 +6,20 @@ The energy vanishes at infinite gap and is negative in contact.
 docs/traction-laws.md shows how to add a law.
 """
 
-from viscotack.model.traction.ageing import LogarithmicAgeing, SaturatingAgeing
 from viscotack.model.traction.dugdale import Dugdale
 from viscotack.model.traction.exponential import Exponential
-from viscotack.model.traction.growing import Eyring, GentSchultz
 from viscotack.model.traction.law import Traction, effective_range, softening
 from viscotack.model.traction.lennard_jones import LennardJones
-from viscotack.model.traction.resting import ages, at_rest, grows, has_rest
+from viscotack.model.traction.resting import (
+    Eyring,
+    GentSchultz,
+    LogarithmicAgeing,
+    SaturatingAgeing,
+    ages,
+    at_rest,
+    grows,
+    has_rest,
+)
 from viscotack.model.traction.tabulated import Tabulated
 
 # Word in a file or option -> law. Every constant except work, gap and the reference speed or time

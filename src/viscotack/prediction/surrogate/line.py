@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.result.trajectory import POINTS, PRESSED, TENSILE, gathered
+from viscotack.result.curve import POINTS, PRESSED, TENSILE, gathered
 
 # Outputs of a network per row: inner points of both shapes, and all radii except the first.
 SHAPE = slice(0, TENSILE - 2)

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.model.protocol import AtDepth, Start
-from viscotack.model.surfaces.statistics import rms_curvature
+from viscotack.model.surfaces.heights import rms_curvature
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.grid.plane import Device, Plane
 

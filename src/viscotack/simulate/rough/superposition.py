@@ -39,8 +39,14 @@ from viscotack.model.protocol import Apart, Approach, AtDepth, Retraction
 from viscotack.model.surfaces import Asperities, summits
 from viscotack.model.traction import has_rest
 from viscotack.simulate import solve
-from viscotack.simulate.curve_family import Family, Pull, nodes_between, pad_curve
-from viscotack.simulate.force_curve import Curve, side_by_side
+from viscotack.simulate.curve_family import (
+    Curve,
+    Family,
+    Pull,
+    nodes_between,
+    pad_curve,
+    side_by_side,
+)
 from viscotack.simulate.solver import SimulationError
 from viscotack.theory.elastic import jkr
 

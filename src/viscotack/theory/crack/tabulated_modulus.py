@@ -44,9 +44,8 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, Values, ascending, plain, positive
-
-from . import _loss_integral as integral
-from . import _zone_integral as zone
+from viscotack.theory.crack import greenwood as zone
+from viscotack.theory.crack import persson_brener as integral
 
 _FEWEST = 4
 

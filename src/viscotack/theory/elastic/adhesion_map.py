@@ -24,8 +24,8 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory._roots import halved
+from viscotack.theory.elastic import maugis as equations
 
-from . import _maugis_equations as equations
 from .lennard_jones import tabor_number
 from .maugis import parameter_from_tabor
 

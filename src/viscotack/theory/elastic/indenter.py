@@ -26,8 +26,7 @@ from viscotack.arrays import Array
 from viscotack.model.geometry import Body, HalfSpace, Layer, Shape
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.elastic import on_body, on_layer
-
-from ._sneddon import angles, half_space_depth, mean_slope
+from viscotack.theory.elastic.profiles import angles, half_space_depth, mean_slope
 
 _HALF_SPACE = HalfSpace()
 _NO_ADHESION = "0 is no adhesion"

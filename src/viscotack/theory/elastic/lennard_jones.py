@@ -15,6 +15,10 @@ last value of the table: errors below 1e-3 of the force and 1 % of the work.
 Source: this package; the table is computed by ``research/elastic_table.py``; limits of Bradley
 (1932), Philosophical Magazine 13, 853 (no DOI known to this package), and Johnson, Kendall &
 Roberts (1971), doi:10.1098/rspa.1971.0141.
+
+**Computed elastic pull-off of a Lennard-Jones sphere; written by research/elastic_table.py.** Tabor
+number, pull-off force [1.5 pi R w] and work to pull-off from zero force [1.5 pi R w h0], at the
+Chebyshev points of ln mu. Estimated solver errors: 5e-5 of the force, 3e-4 of the work.
 """
 
 from __future__ import annotations
@@ -26,7 +30,26 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from viscotack.theory._checks import Number, Values, plain, positive
 
-from ._lennard_jones_table import ROWS
+ROWS = (
+    (0.01, 1.33268753, 0.2108915),
+    (0.0106861700137193, 1.33261569, 0.2114413),
+    (0.0130071066510647, 1.33235583, 0.2134238),
+    (0.0178976323050524, 1.33173242, 0.2181550),
+    (0.027500451761057, 1.33025716, 0.2292061),
+    (0.0464135353810727, 1.32659724, 0.2558843),
+    (0.0843285924469905, 1.31715512, 0.3213851),
+    (0.161199806805135, 1.29323321, 0.4769435),
+    (0.316227766016838, 1.24167728, 0.8064168),
+    (0.620348138015353, 1.16656591, 1.3989537),
+    (1.1858374140759, 1.09708572, 2.3974223),
+    (2.15454391006766, 1.05109348, 4.0415683),
+    (3.63630390034568, 1.02648444, 6.5455115),
+    (5.58733123440973, 1.01466522, 9.8569604),
+    (7.68810487087184, 1.00922597, 13.4370772),
+    (9.35788967156767, 1.00687468, 16.2896417),
+    (10, 1.00621610, 17.3826771),
+)
+
 
 _TABOR, _FORCE, _WORK = np.array(ROWS).T
 _LOWEST, _HIGHEST = _TABOR[0], _TABOR[-1]

@@ -39,8 +39,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.geometry import Base, Bonded, Cone, Layer, PowerLawProfile, Sphere, detail
 from viscotack.model.geometry.gauss import gauss
-
-from ._sneddon import half_space_depth
+from viscotack.theory.elastic.profiles import half_space_depth
 
 # Gauss panels in the angle: smallest number, thicknesses per extra panel, points per panel.
 _PANELS, _WIDER, _POINTS = 3, 4.0, 16

@@ -1,10 +1,17 @@
-"""Options for the files of a DMA, relaxation or creep test."""
+"""Options for the files of a DMA, relaxation or creep test.
+
+Options for the master curve: time-temperature superposition of tests.
+"""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from ..options import number, option, switch
-from ..request import Request
+import numpy as np
+
+from viscotack.app.operations.options import file_name, number, option, quoted, switch, text, two_of
+from viscotack.app.operations.request import Caller, Request
+from viscotack.errors import InputError
+from viscotack.units import parse
 
 if TYPE_CHECKING:
     from viscotack.lab import CreepTest, FrequencySweeps, RelaxationTest
@@ -74,3 +81,128 @@ class Dma(OfFiles):
         from viscotack.lab import read
 
         return read(files, **self.values(*Dma.model_fields))
+
+
+_MOVES = ("none", "auto", "free")
+
+
+def _moving(value: Any) -> str | float:
+    """Return a word of the vertical shift, or a coefficient of volume expansion [1/K]."""
+    if value in _MOVES:
+        return value
+    try:
+        return parse(value, "1/K")
+    except InputError:
+        raise InputError(
+            f"must be {', '.join(_MOVES)} or the coefficient of volume expansion, "
+            f'"6e-4 1/K", got {value!r:.60}'
+        ) from None
+
+
+def _constants(value: Any) -> tuple[float, float]:
+    """Return the constants of WLF."""
+    c1, c2 = two_of(value)
+    return parse(c1, "1"), parse(c2, "K")
+
+
+class ShiftLaw(Request):
+    """Options for a known shift of tests at several temperatures; temperatures in K."""
+
+    reference_temperature: float | None = number(
+        'Temperature of the master curve, "20 degC"; required for a shift, and for a DMA at '
+        "several temperatures.",
+        "K",
+    )
+    glass_transition: float | None = number(
+        'Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC".', "K"
+    )
+    wlf: tuple[float, float] | None = text(
+        'Shift by WLF with these constants, "8.86,101.6 K", at the reference temperature.',
+        metavar="C1,C2",
+        to=_constants,
+    )
+    shift_file: Path | None = file_name("Shift by this table of log_aT.")
+
+    def check(self) -> None:
+        """Check that at most one shift is given, with its reference temperature."""
+        named = self.named
+        if len(named) > 1:
+            raise InputError(f"give one shift, got {quoted(named)}")
+        if named and self.reference_temperature is None:
+            raise InputError(f"`{named[0]}` needs `reference_temperature`")
+
+    @property
+    def named(self) -> list[str]:
+        """Names of the given shifts."""
+        laws = ("glass_transition", "wlf", "shift_file")
+        return [name for name in laws if getattr(self, name) is not None]
+
+    def law(self, caller: Caller) -> Any:
+        """Return the given shift law or table; None without one."""
+        from viscotack.model.materials.shift import WLF
+
+        if self.glass_transition is not None:
+            return WLF.from_glass_transition(self.glass_transition)
+        if self.wlf is not None:
+            assert self.reference_temperature is not None, "checked above"
+            c1, c2 = self.wlf
+            return WLF(reference_temperature=self.reference_temperature, c1=c1, c2=c2)
+        if self.shift_file is not None:
+            from viscotack.lab import read_shifts
+
+            return read_shifts(caller.file(self.shift_file))
+        return None
+
+    def referred(self, caller: Caller) -> Any:
+        """Return the given shift law with the reference temperature; None without one."""
+        law = self.law(caller)
+        return None if law is None else law.at_reference(self.reference_temperature)
+
+
+class Shifting(ShiftLaw):
+    """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
+
+    shift_by: Literal["both", "storage", "loss", "tan"] | None = option(
+        "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
+        "they are by default. Default without --vertical: both, or storage if it is clearly "
+        "more causal."
+    )
+    vertical: str | float | None = text(
+        "Vertical shift with temperature: none (the default), auto (as far as the data "
+        "determine it), free, or by density and temperature with a volume expansion of "
+        '"6e-4 1/K".',
+        metavar="WORD|EXPANSION",
+        to=_moving,
+    )
+    leave_out: tuple[float, ...] = number(
+        'Exclude the sweep at this temperature, "-30 degC". Can be repeated.', "K", default=()
+    )
+
+    def check(self) -> None:
+        """Check that one shift is given with its parameters."""
+        super().check()
+        if self.named and (self.shift_by is not None or self.vertical is not None):
+            raise InputError(
+                f"`shift_by` and vertical are for shifts found from overlap; with "
+                f"{self.named[0]} leave them out"
+            )
+
+    def at_one_temperature(self, measured: Any, caller: Caller) -> Any:
+        """Return what was measured at one temperature, the shift of times, and doubts about it."""
+        from viscotack.lab import MasterCurve, at_one_temperature
+
+        curve, shift, doubts = at_one_temperature(
+            measured,
+            shift=self.law(caller),
+            by=self.shift_by,
+            **self.values("reference_temperature", "vertical", "leave_out"),
+        )
+        glass = self.glass_transition
+        known = curve.temperature if isinstance(curve, MasterCurve) else None
+        if glass is not None and known is not None and (known < glass).any():
+            doubts += (
+                f"{np.sum(known < glass)} points lie below the glass transition, down to "
+                f"{np.nanmin(known) - 273.15:.4g} C, where a glass need not follow WLF: the "
+                "highest frequencies and the glassy modulus rest on them",
+            )
+        return curve, shift, doubts

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.app.operations.parts.tables import drawn
 from viscotack.errors import InputError
 from viscotack.model.geometry import FlatPunch
 from viscotack.model.problem import Problem
@@ -13,7 +14,6 @@ from viscotack.model.problem.outputs import Kind
 from viscotack.result import Outcome, Result, columns
 
 from ..request import Told
-from .json_data import drawn
 
 Tell = Callable[[Told], None]
 # Seconds between two tellings of a curve that grows.

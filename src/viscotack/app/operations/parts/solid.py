@@ -1,14 +1,27 @@
-"""Options for a material: a published name, a passport, a table, or numbers."""
+"""Options for a material: a published name, a passport, a table, or numbers.
 
+Options for a layer on a rigid base: its thickness, and whether it is bonded. The published
+materials, and materials as tables of a case file. Example cases for new users, also used to warm up
+worker processes.
+"""
+
+import tomllib
+from importlib.resources import files
 from typing import TYPE_CHECKING, Annotated, Any
 
-from viscotack.errors import InputError
+import numpy as np
 
-from ..flags import FLAGS, named_as_flags, table_of_solid
-from ..options import Named, named, number, quoted
-from ..request import Caller, Request
+from viscotack.app.operations.flags import FLAGS, named_as_flags, table_of_solid
+from viscotack.app.operations.options import Named, named, number, quoted
+from viscotack.app.operations.request import Caller, Request
+from viscotack.cards import with_units
+from viscotack.errors import InputError
+from viscotack.model.materials.library import MATERIALS, published
+from viscotack.model.materials.passport_words import in_words
+from viscotack.model.materials.words import word_of
 
 if TYPE_CHECKING:
+    from viscotack.model.geometry import HalfSpace, Layer
     from viscotack.model.materials.material import Material
     from viscotack.model.materials.passport import Passport
 
@@ -79,3 +92,72 @@ class Reduced(Request):
         with named_as_flags("sphere", in_si=False):
             table = table_of_solid(words, numbers, nouns)
             return material_of(table, Reading("the options", nouns, caller.file, pure=True))
+
+
+class OnLayer(Request):
+    """A contact on a half-space, or on a layer of a thickness."""
+
+    thickness: float | None = number(
+        'Thickness of a layer on a rigid base, "60 um"; a half-space when left out.', "m", above=0
+    )
+    bonded: float | None = number(
+        "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer "
+        "slides on its base.",
+        least=0,
+        most=0.5,
+    )
+
+    def check(self) -> None:
+        """Refuse a base without a layer."""
+        super().check()
+        if self.bonded is not None and self.thickness is None:
+            raise InputError("bonded needs a layer; give its thickness as well", field="bonded")
+
+    @property
+    def body(self) -> "HalfSpace | Layer":
+        """The half-space or the layer."""
+        from viscotack.model.geometry import Bonded, Frictionless, HalfSpace, Layer
+
+        if self.thickness is None:
+            return HalfSpace()
+        nu = self.bonded
+        return Layer(self.thickness, Frictionless() if nu is None else Bonded(poisson_ratio=nu))
+
+
+def material_table(material: Any) -> dict[str, Any]:
+    """Return a material as the table [material] of a case file, with all its digits.
+
+    Examples
+    --------
+    >>> from viscotack import Elastic
+    >>> material_table(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
+    {'model': 'elastic', 'rubbery_modulus': '1000000.0 Pa', 'poisson_ratio': 0.5}
+    """
+    return {"model": word_of(material), **with_units(material)}
+
+
+def library() -> list[dict[str, Any]]:
+    """Return the published materials, each as the table [material] of a case file."""
+    found = []
+    for name in MATERIALS:
+        passport = published(name)
+        table = material_table(passport.material)
+        found.append(
+            {
+                "name": name,
+                "title": passport.name,
+                "table": table,
+                "measured_Hz": [w / (2 * np.pi) for w in passport.frequencies or ()],
+                "source": passport.origin.reference,
+                "doi": passport.origin.doi,
+                "words": in_words(passport),
+            }
+        )
+    return found
+
+
+# Title -> tables of a case file.
+EXAMPLES: dict[str, dict[str, dict[str, Any]]] = tomllib.loads(
+    files("viscotack.app.page").joinpath("examples.toml").read_text("utf-8")
+)
+FIRST = next(iter(EXAMPLES.values()))

@@ -4,7 +4,8 @@ Lengths along the surface are in beta, heights in beta^2/R, forces in R dg, time
 unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
-from ._edge import Edge
+from viscotack.theory.crack.contact.history import Edge
+
 from ._profile import (
     Profile,
     SpheresOnLayers,

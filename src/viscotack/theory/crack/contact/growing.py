@@ -24,12 +24,11 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
 from viscotack.model.traction import GentSchultz, LennardJones, Traction
-from viscotack.model.traction.growing import power_growth
-from viscotack.model.traction.growing import reference_speed as speed_of_growth
+from viscotack.model.traction.resting import power_growth
+from viscotack.model.traction.resting import reference_speed as speed_of_growth
 from viscotack.theory._checks import Values
+from viscotack.theory.crack.contact.history import Edge
 from viscotack.theory.crack.steady import NeighbourCrack, SteadyCrack
-
-from ._edge import Edge
 
 # Rows of a table over ln V; above the last crack the energy is extrapolated with at least this
 # slope, determined over this range of ln V.

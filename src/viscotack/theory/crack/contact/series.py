@@ -40,10 +40,10 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
+from viscotack.theory.crack.contact.history import Chain, chain_of
 from viscotack.theory.crack.steady import SteadyCrack
 from viscotack.threads import caught_warnings
 
-from ._memory import Chain, chain_of
 from ._profile import HalfSpaceProfile
 
 # Rows of the tables of a crack and of an elastic contact, and the slowest crack, Gamma - 1.

@@ -1,7 +1,8 @@
 """Steady crack with a full traction law, for any linear solid, opening and closing."""
 
+from viscotack.theory.crack.steady.cracks import Comparison, compared
+
 from ._branch import energy_of_odds
-from .comparison import Comparison, compared
 from .cracks import MESH_ERROR, Profile, SteadyCrack
 from .neighbour import NeighbourCrack
 

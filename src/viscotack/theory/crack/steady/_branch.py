@@ -2,7 +2,7 @@
 
 At speeds a quarter of a decade apart Newton's method starts from the previous crack. Between
 them ln of (Gamma - 1)/(1/k - Gamma), for closing of (1 - Gamma)/(Gamma - k), is piecewise cubic in
-ln of the speed (:mod:`._knots`); fourth differences give the error estimate.
+ln of the speed (:mod:`._mesh`); fourth differences give the error estimate.
 """
 
 from __future__ import annotations
@@ -15,11 +15,21 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
+from viscotack.theory.crack.steady._mesh import (
+    AHEAD,
+    AHEAD_FOR_ERROR,
+    alone,
+    between,
+    closing_inflow,
+    closing_matrix,
+    curve,
+    lengths_of,
+    opening_matrix,
+    stated,
+)
 from viscotack.threads import one_blas_thread
 
 from ._balance import Law, Solution, System, solved
-from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, between, curve, stated
-from ._memory import closing_inflow, closing_matrix, lengths_of, opening_matrix
 from ._mesh import Mesh
 
 STEP = np.log(10) / 4

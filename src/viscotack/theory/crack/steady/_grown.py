@@ -12,7 +12,7 @@ lengths times Q, and with :math:`y = Q v` for the speed,
 The modes of the solid have lengths :math:`y \tau_j` there. Q is predicted from previous cracks.
 
 Between values of y, :math:`\ln(\Gamma - 1)` and :math:`\ln Q` are piecewise
-cubic in ln y (:mod:`._knots`). For dominant growth, :math:`Q \sim (Q v)^n`: the energy tends to
+cubic in ln y (:mod:`._mesh`). For dominant growth, :math:`Q \sim (Q v)^n`: the energy tends to
 :math:`v^{n/(1-n)}` while the solid is elastic, more steeply than the local tension, because the
 crack becomes shorter; an interface whose growth is proportional to the speed has a
 largest crack speed.
@@ -28,10 +28,18 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
+from viscotack.theory.crack.steady._mesh import (
+    AHEAD,
+    AHEAD_FOR_ERROR,
+    FINE,
+    alone,
+    between,
+    curve,
+    stated,
+)
 
 from ._balance import Law, Solution, System, slopes, solved
 from ._branch import STEP, walked
-from ._knots import AHEAD, AHEAD_FOR_ERROR, FINE, alone, between, curve, stated
 from ._mesh import Mesh
 
 # Gamma - 1 of the first and the last computed crack, and largest number of cracks.

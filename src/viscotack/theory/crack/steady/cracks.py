@@ -17,6 +17,12 @@ It is the limit of large Tabor numbers of every contact, for any linear solid an
 this package; docs/steady_crack.md derives it. No DOI: for cohesive zones
 see Greenwood (2004), J. Phys. D 37, 2557, and Barber, Donley & Langer (1989),
 doi:10.1103/PhysRevA.40.366.
+
+**Deviation of simpler theories from the steady crack, for one solid and one law.** The theories of
+Persson and Brener and of Greenwood need a length, which follows from the strength of the law:
+:math:`l_0 = \lambda/(\pi \alpha^2 \bar\sigma_0^2)` (Eq. 4.23) with any alpha, :math:`l = \pi
+\lambda/(4 \bar\sigma_0^2)`, :math:`\bar\sigma_0 = \sigma_0 h_0/\Delta\gamma_0`. The slow asymptote
+is :math:`1 + s V`, the fast one 1/k. All are for opening cracks.
 """
 
 from __future__ import annotations
@@ -24,7 +30,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,12 +38,12 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
 from viscotack.model.traction import Dugdale, Traction, effective_range, grows
-from viscotack.model.traction.resting import check_ageless, reduced
-from viscotack.theory._checks import Number, Values, plain
-
-from . import _branch, _grown, _mesh, _start
-from ._balance import Law, Solution
-from ._memory import lengths_of, opening_matrix
+from viscotack.model.traction.resting import check_ageless, check_of_gap_alone, reduced
+from viscotack.theory._checks import Number, Values, plain, positive
+from viscotack.theory.crack import greenwood, persson_brener
+from viscotack.theory.crack.steady import _balance, _branch, _grown, _mesh
+from viscotack.theory.crack.steady._balance import Law, Solution
+from viscotack.theory.crack.steady._mesh import lengths_of, opening_matrix
 
 # Half-length of the mesh over the length of the glassy zone.
 _REACH = 3e4
@@ -242,7 +248,7 @@ class SteadyCrack:
     @property
     def _reduced(self) -> Any:
         law: Any = self.traction
-        return _start.softened((law.at_rest if grows(law) else law).reduced())
+        return _balance.softened((law.at_rest if grows(law) else law).reduced())
 
     @cached_property
     def _grown(self) -> _grown.Grown | None:
@@ -257,12 +263,12 @@ class SteadyCrack:
         law = law.base if grows(law) else law
         if not isinstance(law, Dugdale):
             return 0.0
-        rise = max(_start.LEAST_RISE - law.rise, 0.0) * _RISE_ERROR
-        return rise + max(_start.LEAST_FALL - law.fall, 0.0) * _FALL_ERROR
+        rise = max(_balance.LEAST_RISE - law.rise, 0.0) * _RISE_ERROR
+        return rise + max(_balance.LEAST_FALL - law.fall, 0.0) * _FALL_ERROR
 
     @cached_property
     def _law(self) -> Law:
-        return _start.pinned(self._reduced)
+        return _balance.pinned(self._reduced)
 
     @cached_property
     def _grid(self) -> _mesh.Mesh:
@@ -386,7 +392,7 @@ def _grid_of(law: Traction, modulus_ratio: float) -> _mesh.Mesh:
 
 @lru_cache(maxsize=32)
 def _elastic_of(law: Traction, modulus_ratio: float) -> Solution:
-    return _start.elastic(law, _grid_of(law, modulus_ratio))
+    return _balance.elastic(law, _grid_of(law, modulus_ratio))
 
 
 @lru_cache(maxsize=64)
@@ -394,7 +400,7 @@ def _branch_of(law: Traction, modes: Modes, sign: int) -> _branch.Branch:
     start = _kept(_elastic_of, law, modes.instantaneous)
     grid = _grid_of(law, modes.instantaneous)
     slow = _slow_of(start, grid, modes)
-    return _branch.Branch(grid, _start.pinned(law), modes, start, slow, sign)
+    return _branch.Branch(grid, _balance.pinned(law), modes, start, slow, sign)
 
 
 @lru_cache(maxsize=64)
@@ -402,7 +408,7 @@ def _grown_of(law: Traction, modes: Modes, growing: Any) -> _grown.Grown:
     start = _kept(_elastic_of, law, modes.instantaneous)
     grid = _grid_of(law, modes.instantaneous)
     opening = partial(_kept, _opening_of, law, modes)
-    return _grown.Grown(grid, _start.pinned(law), modes, opening, growing, start)
+    return _grown.Grown(grid, _balance.pinned(law), modes, opening, growing, start)
 
 
 # 0.6 MB each; a solid has about 70, at speeds that all growing laws on it share
@@ -421,3 +427,83 @@ def _slow_of(elastic: Solution, grid: _mesh.Mesh, modes: Modes) -> float:
     slope = np.diff(elastic.gap) / grid.dx
     mean_time = float(np.dot(modes.weights, modes.times))
     return -mean_time * float(np.sum(np.diff(elastic.traction) * (slope[1:] + slope[:-1]) / 2))
+
+
+# Value of the thesis, fitted to simulations of a sphere at a Tabor number of 3.24.
+THESIS_RATIO = np.pi / 9
+
+
+class Comparison(NamedTuple):
+    """Amplifications of an opening crack by theory, returned by :func:`compared`.
+
+    All are dimensionless arrays of the shape of the speeds.
+
+    Attributes
+    ----------
+    speed : ndarray
+        Speed [E0* h0^2/(dg tau)].
+    steady, error : ndarray
+        Steady crack with the full law, and its relative error.
+    persson_brener, greenwood, slow, fast : ndarray
+        Other theories and asymptotes.
+    """
+
+    speed: Array
+    steady: Array
+    error: Array
+    persson_brener: Array
+    greenwood: Array
+    slow: Array
+    fast: Array
+
+    def off(self, theory: str) -> Array:
+        """Return the signed relative deviation of a theory from the steady crack."""
+        return getattr(self, theory) / self.steady - 1
+
+
+def compared(
+    crack: SteadyCrack, speed: Values, *, strength_ratio: float = THESIS_RATIO
+) -> Comparison:
+    """Compare theories of an opening crack at speeds [E0* h0^2/(dg tau)].
+
+    Parameters
+    ----------
+    crack : SteadyCrack
+        Solid and law.
+    speed : array_like
+        Dimensionless speeds, positive.
+    strength_ratio : float
+        Alpha of the Persson-Brener length.
+
+    Raises
+    ------
+    InputError
+        If a speed or the ratio is not positive and finite.
+    OutOfRange
+        If the law depends on more than the gap.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.model.traction import LennardJones
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> found = compared(SteadyCrack(solid, LennardJones(1, 1)), 10.0)
+    >>> f"Persson-Brener {found.off('persson_brener'):+.1%}"
+    'Persson-Brener +6.4%'
+    """
+    check_of_gap_alone(crack.traction, "a comparison of theories")
+    v, alpha = positive(speed=speed, strength_ratio=strength_ratio)
+    law = crack.traction.reduced()
+    case = {"contact_modulus": 1.0, "work_of_adhesion": 1.0, "strength": law.strength}
+    tip = persson_brener.crack_tip_length(**case, strength_ratio=alpha)
+    zone = greenwood.cohesive_zone_length(**case)
+    solid = crack.material
+    return Comparison(
+        speed=v,
+        steady=np.asarray(crack.amplification(v)),
+        error=np.asarray(crack.error(v)),
+        persson_brener=np.asarray(persson_brener.amplification(v / tip, material=solid)),
+        greenwood=np.asarray(greenwood.amplification(v / zone, material=solid)),
+        slow=1 + crack.slow_coefficient * v,
+        fast=np.full(v.shape, crack.largest),
+    )
