@@ -1,7 +1,7 @@
 """Remake the table of elastic pull-off of a Lennard-Jones sphere: force and work against mu.
 
 Runs the solver at the Chebyshev points of ln mu between 0.01 and 10 from zero force to the force
-minimum, and prints the rows of `viscotack.theory.elastic.lennard_jones`.
+minimum, and prints `viscotack.theory.elastic.lennard_jones.ROWS`.
 
 Time: about ten minutes on one core, nearly all of it for mu above 3.
 """

@@ -1,9 +1,8 @@
 """One case of a campaign: solve it within its limits and return a row. Runs in the workers.
 
-Versions and source hash of the running program: a table must not mix rows of different ones.
-
 A row contains the numbers of ``viscotack.summary``, key points of the curve and a resampled
-trajectory, about a thousandth of the size of a result.
+trajectory, about a thousandth of the size of a result. A table must not mix rows of different
+programs, which are told apart by their versions and the hash of their source.
 """
 
 import hashlib

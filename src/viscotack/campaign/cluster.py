@@ -67,7 +67,7 @@ class Dask:
         return self._client.get_executor(pure=False, retries=0)
 
     def threads(self) -> int:
-        """Return the number of threads of the workers there are: `workers` of :func:`run`.
+        """Return the number of threads of all workers, for :func:`viscotack.campaign.run`.
 
         Raises
         ------

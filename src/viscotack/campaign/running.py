@@ -29,12 +29,11 @@ from pathlib import Path
 from time import monotonic, perf_counter, sleep
 from typing import Any
 
-from viscotack.campaign.case import identity
 from viscotack.errors import InputError
 from viscotack.model.problem.kinds import Kind
 from viscotack.system import Processes, begin_worker
 
-from .case import CaseSettings, Unsolved, measure
+from .case import CaseSettings, Unsolved, identity, measure
 from .plan import Case, Plan, restored_kind
 from .store import PASSING, Store, locked
 
@@ -111,7 +110,8 @@ def run(
         where their number changes.
     executor : callable, optional
         Returns an executor of ``concurrent.futures`` that runs the cases in place of processes of
-        this machine, such as :class:`Dask`. It is called again when an executor has broken.
+        this machine, such as :class:`viscotack.campaign.Dask`. It is called again when an executor
+        has broken.
     retry : bool
         Also run the cases that have failed. Those that crashed or whose worker died are always run.
     work : callable

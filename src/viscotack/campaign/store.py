@@ -17,12 +17,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from viscotack.campaign.case import identity
 from viscotack.errors import InputError
 from viscotack.files.frame import frame
 from viscotack.files.text import read_text
 
-from .case import CaseSettings
+from .case import CaseSettings, identity
 from .plan import Case, Plan, numbers_of, restored_kind
 
 _TABLES = {
@@ -49,7 +48,7 @@ class FolderInUse(InputError):
 
 
 class Store:
-    """The stored campaign of a folder; :func:`run` writes it.
+    """The stored campaign of a folder; :func:`viscotack.campaign.run` writes it.
 
     Parameters
     ----------

@@ -4,11 +4,9 @@ The search uses the fast tiers with their intervals, and a simulation of the bes
 decides. docs/design.md describes file, method and limits.
 """
 
-from viscotack.design.margins import Limit
-
 from .files import ArrayFile, DesignFile, WindowFile, read_array, read_design, read_window
 from .finding import Design, find_design
-from .margins import Candidate, Simulated
+from .margins import Candidate, Limit, Simulated
 from .space import Bounds, Choice, Conditions, DesignSpace, Targets
 
 __all__ = [

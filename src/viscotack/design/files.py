@@ -16,7 +16,6 @@ from typing import Annotated, Any
 import numpy as np
 
 from viscotack.cards import Exact, Pairs, Quantity, cards
-from viscotack.design.window.picking import WindowScatter
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.model.materials import Elastic, Material
@@ -43,7 +42,7 @@ from .space import (
     ends,
 )
 from .window.opening import aged
-from .window.picking import DONOR, RECEIVER, STAMP
+from .window.picking import DONOR, RECEIVER, STAMP, WindowScatter
 
 _DESIGN = ("targets", "bounds", "conditions", "scatter", "material", "materials", "interface")
 _MOST_MATERIALS = 10

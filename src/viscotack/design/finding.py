@@ -1,7 +1,5 @@
 r"""Find a design: the largest margin of the worst target by the fast tier, then simulations.
 
-Simulation of a design, which decides.
-
 The margin of a target is :math:`\ln(P/P_\mathrm{hold})` or :math:`\ln(P_\mathrm{release}/P)`, with
 the less favourable end of the interval of P. Differential evolution maximises the smallest one;
 with tolerances the smallest one less the allowance that the yield needs. If no simulated design

@@ -1,1 +1,1 @@
-"""Files: atomic writes, tables of quantities with units, text, TOML, archives and locks."""
+"""Files: atomic writes, tables of quantities with units, text, TOML, archives and data frames."""

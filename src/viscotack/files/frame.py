@@ -1,7 +1,4 @@
-"""Tables as pandas DataFrames, where pandas is installed.
-
-Import of pyarrow, which reads and writes Parquet and is installed by the extra ``campaign``.
-"""
+"""Tables by optional libraries: DataFrames by pandas, Parquet by pyarrow."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

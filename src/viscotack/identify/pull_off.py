@@ -185,7 +185,7 @@ class PullOff:
     preload : float, optional
         Force under which the contact relaxed [N].
     travels : tuple of Measured, optional
-        Travels along the curve [m], from :func:`.pull_off.travels`.
+        Travels along the curve [m], from :func:`travels`.
     remarks : tuple of str
         Sentences on the tests at this speed.
     history : History, optional

@@ -3,7 +3,7 @@ r"""Identify the interface from a rate series: pull-off forces at several speeds
 The forward model is the contact whose edge is a steady crack (:mod:`.forward`), and simulation
 where that does not hold (:mod:`.simulated_tests`). Pull-off forces are computed on a grid of works
 of adhesion and ranges and interpolated in logarithms (:mod:`.search`), so that the
-search (:mod:`.search`) and its intervals are fast. Noise of the forces, error of the forward model
+search and its intervals are fast. Noise of the forces, error of the forward model
 and uncertainty of material, temperature and machine (:mod:`.covariances`) form one covariance of
 the relative forces.
 

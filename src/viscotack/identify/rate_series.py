@@ -135,7 +135,7 @@ class RateSeries:
     ----------
     tests : sequence of PullOff
         Tests at two or more speeds, relaxed under their preload. Those with a temperature are
-        shifted to that of the passport (:func:`.rate_series.shifted`).
+        shifted to that of the passport (:func:`shifted`).
     material : Passport or Material
         Solid at the temperature of tests that state none. The sampled solids of a passport widen
         the intervals; a bare material is assumed exact.

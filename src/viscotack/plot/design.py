@@ -1,9 +1,4 @@
-"""Figure of a design: forces by speed with their targets, and elasticities.
-
-Figure of an array of pads: force by travel of the drive, and the order of detachment. Figure of a
-window: picking and printing of a stamp, by speed and preload. Figure of a force table and of a
-controlled release. Figure of the regime map of a pad.
-"""
+"""Figures of what is designed: designs, arrays, windows, force tables, and regimes of pads."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,4 @@
-"""Figures of an identified interface: measured points, fitted curves, residuals.
-
-Figure of tests: what each leaves of the uncertainty, by speed.
-"""
+"""Figures of an identified interface: points, curves, residuals; and what further tests leave."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any

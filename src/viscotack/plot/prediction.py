@@ -1,6 +1,4 @@
-"""Figure of a prediction: surrogate curve, interval, and markers of a simulation.
-
-Figure of the shares of inputs in the variance of a force.
+"""Figures of a prediction with its interval, and of the shares of inputs in its variance.
 
 Force positive in compression, depth positive into the solid.
 """

@@ -9,7 +9,6 @@ from viscotack.model.geometry import Sphere
 from viscotack.model.materials import Elastic
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
-from viscotack.prediction.theories import VERIFIED, crack_limits
 from viscotack.simulate.crack_contact.crack_problem import ROOT
 from viscotack.simulate.handover import too_short
 from viscotack.units import readable
@@ -19,7 +18,14 @@ from .closed_forms import Estimate, check_test, is_classic
 from .other_contacts import SATURATED, TOLERANCES, OtherContact, check_contact, other_contact
 from .prediction import Prediction
 from .simulation import SIMULATION
-from .theories import CLOSED_FORM, closed_form_limits, estimate_of, forms_of
+from .theories import (
+    CLOSED_FORM,
+    CRACK_CONTACT_VERIFIED,
+    closed_form_limits,
+    crack_limits,
+    estimate_of,
+    forms_of,
+)
 from .tier import Question, Tier
 from .tiers import CLOSED_FORMS, CRACK, EXACT, LEARNED_PUNCH, SOON, TIERS, best
 
@@ -195,7 +201,7 @@ def advice_on(asked: Question) -> Advice:
         estimates = tuple(estimate_by(x, asked) for x in TIERS if x.name != LEARNED_PUNCH)
     else:
         # the search for the relaxed start of a simulation takes a second on a film
-        known = not (VERIFIED.refuses(groups) or crack_limits(groups))
+        known = not (CRACK_CONTACT_VERIFIED.refuses(groups) or crack_limits(groups))
         found, contact = _best(asked) if known else None, other_contact(groups)
         slow, edge_speed = contact.slow_force, contact.edge_speed
         start = None if contact.start_radius is None else contact.start_radius / ROOT

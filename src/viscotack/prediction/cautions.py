@@ -19,12 +19,11 @@ from viscotack.errors import InputError
 from viscotack.model.materials import Elastic
 from viscotack.model.materials.passport import allowed
 from viscotack.model.problem import Case, Problem
-from viscotack.prediction.theories import crack_of
 from viscotack.units import readable
 
 from .closed_forms import is_classic, is_plain
 from .other_contacts import REST_ZONE
-from .theories import forms_of
+from .theories import crack_of, forms_of
 from .tier import Question
 
 if TYPE_CHECKING:

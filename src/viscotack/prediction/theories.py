@@ -1,7 +1,4 @@
-"""The five closed forms as tiers.
-
-The contact whose edge is a steady crack, as a tier.
-"""
+"""The theories as tiers: five closed forms, and the contact whose edge is a steady crack."""
 
 from __future__ import annotations
 
@@ -149,7 +146,7 @@ def by_closed_form(asked: Question, name: str) -> Prediction:
 CRACK_CONTACT = "crack contact"
 # The theory describes a solid by its modulus and its creep, and was compared with simulations of
 # several solids; `not_measured` lists the ranges.
-VERIFIED = Verified(
+CRACK_CONTACT_VERIFIED = Verified(
     shapes=(Sphere, Cone, PowerLawProfile),
     bodies=(HalfSpace,),
     laws=(LennardJones, Dugdale, Exponential, Tabulated),

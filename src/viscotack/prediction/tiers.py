@@ -14,7 +14,6 @@ from functools import partial
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.materials import Elastic, RetardationPowerLaw
 from viscotack.prediction import theories
-from viscotack.prediction.theories import CRACK_CONTACT, by_crack_contact
 
 from . import learned_crack, power_laws, punches, solids
 from .learned_crack import LEARNED_CRACK, by_learned_crack
@@ -23,7 +22,7 @@ from .prediction import Prediction
 from .punches import LEARNED_PUNCH, by_punches
 from .simulation import SIMULATION, by_simulation
 from .solids import SOLIDS, by_solids
-from .theories import CLOSED_FORM, ELASTIC, by_closed_form
+from .theories import CLOSED_FORM, CRACK_CONTACT, ELASTIC, by_closed_form, by_crack_contact
 from .tier import Question, Tier, Uncertain
 
 # Time budgets [s]: surrogates alone; surrogates and theories, the default.
@@ -47,7 +46,7 @@ CLOSED_FORMS = {
         *((x, (CLOSED_FORM,)) for x in ("unloading", "detachment", "rate-fit", "glassy")),
     )
 }
-CRACK = Tier(CRACK_CONTACT, 0.5, (theories.VERIFIED,), by_crack_contact)
+CRACK = Tier(CRACK_CONTACT, 0.5, (theories.CRACK_CONTACT_VERIFIED,), by_crack_contact)
 THEORIES = (CRACK, *CLOSED_FORMS.values())
 EXACT = Tier(SIMULATION, 3.0, (), by_simulation)
 TIERS = (*LEARNED, *THEORIES, EXACT)

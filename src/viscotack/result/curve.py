@@ -69,7 +69,7 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     dict
         ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
         ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at the places
-        of :func:`viscotack.result.curve.shares`. Names, units and signs are those of the
+        of :func:`shares`. Names, units and signs are those of the
         columns of the geometry: of a punch ``stress``, tension positive, and ``ligament``. Forces
         follow a monotone cubic between the steps of the run, radii a straight line; None without an
         edge. A problem in SI has each in SI as well, ``trajectory_force_N``.

@@ -44,7 +44,7 @@ class Cycle:
     loop : Loop
         State in which the loop closed.
     time_to_detachment : float
-        Time from the start of a force hold to detachment, see :mod:`.dead_load`.
+        Time from the start of a force hold to detachment, see :func:`time_to_detachment`.
     """
 
     begin: float

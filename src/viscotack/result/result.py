@@ -268,8 +268,8 @@ class Result:
         effect.
     method : str
         "simulation"; "crack contact" if the range of the forces is too short for a simulation and
-        the theory of a contact whose edge is a steady crack is used (:func:`crack_contact`), with
-        its band as the error of the force.
+        the theory of a contact whose edge is a steady crack is used
+        (:func:`viscotack.crack_contact`), with its band as the error of the force.
     sensitivities : Sensitivities or None
         Elasticities of the pull-off by the inputs, on request.
     versions : dict

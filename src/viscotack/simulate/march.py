@@ -42,7 +42,7 @@ _NOTICED = 1e-3
 _INSIDE = 0.95
 
 
-# not the Scales of the theory: it shares nothing with the simulation, so that each judges the other
+# not the scales of theory.crack.contact: it shares nothing with this, so that each judges the other
 @dataclass(frozen=True)
 class Units:
     """SI values of the units of a contact: depth [m], force [N], time [s]."""
@@ -54,7 +54,7 @@ class Units:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One of the two contacts with its relaxed start, in its own units."""
+    """A contact with its relaxed start, in its own units."""
 
     contact: Contact
     start: Relaxed
@@ -269,7 +269,7 @@ class SteppedSimulation:
     """A contact at its relaxed start, moved by a drive in pieces of constant speed.
 
     All is dimensionless, as in a result. The equations and steps are those of a history
-    (:mod:`.march`), but the next piece of it may depend on what the last one did.
+    (:func:`march`), but the next piece of it may depend on what the last one did.
 
     Parameters
     ----------

@@ -111,9 +111,9 @@ def solve(
     Notes
     -----
     Above a Tabor number of 200 (elastic solids: 30) the steady-crack contact model replaces the
-    simulation (:func:`crack_contact`); `method` and `status` of the result state it, and its error
-    of the force is the band of the model. The same holds if round-off prevents a sufficiently fine
-    mesh, in a very large contact or at a very high accuracy.
+    simulation (:func:`viscotack.crack_contact`); `method` and `status` of the result state it, and
+    its error of the force is the band of the model. The same holds if round-off prevents a
+    sufficiently fine mesh, in a very large contact or at a very high accuracy.
 
     Tested for Tabor numbers from 0.01 to 100, modulus ratios down to 1e-4, preloads from 0.01 to
     500 h0 and rates from 0.1 to 1e10. Small strains are assumed, and inertia is neglected.

@@ -1,6 +1,4 @@
-"""The command-line application and its error handling.
-
-The list of all commands: each is imported when it runs, shows its help or is completed.
+"""The command-line application: its commands, imported when they run, and its error handling.
 
 Exit status: 0 success; 1 the simulation failed (its status gives the reason); 2 invalid input, or a
 file could not be written; 3 a defect of viscotack; 130 interrupted by ctrl-C.

@@ -1,6 +1,6 @@
-"""Run a request from the command line: its progress, its files, and its answer.
+"""Run a request from the command line: its progress, its answer, and its files.
 
-Output files of commands: checked before the work, and failures reported after it.
+Output files are checked before the work, and failures are reported after it.
 """
 
 import json

@@ -1,9 +1,4 @@
-"""The operations ``identify ...``: fit the interface to measured curves.
-
-The operation ``identify approach``: range of attraction from the forces before the contact. The
-operation ``identify curves``: work of adhesion and modulus of every curve of a folder. The
-operation ``identify dwell``: growth of the work of adhesion with contact time.
-"""
+"""The operations ``identify ...``: fit the interface to measured curves."""
 
 import os
 from collections.abc import Callable

@@ -1,8 +1,4 @@
-"""The operation ``material fit``: fit a material model to measured data.
-
-The operation ``material list``: list the library of published materials. The operations ``material
-show``, ``convert`` and ``export``: passports and other formats.
-"""
+"""The operations ``material ...``: fit a material, list, show, convert and export materials."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -41,7 +41,7 @@ WORDS, DRAWN = "words", "drawn"
 
 @dataclass(frozen=True)
 class Answer:
-    """Result of an operation, returned by :func:`ask`; representations are created on demand.
+    """Result of an operation, of :func:`viscotack.app.operations.ask`; made into text on demand.
 
     Attributes
     ----------
@@ -168,7 +168,7 @@ class Caller:
 
 
 class Request(BaseModel):
-    """Base class of requests; :func:`operation` returns one by name.
+    """Base class of requests; :func:`viscotack.app.operations.operation` returns one by name.
 
     The docstring is the help text: a summary line, details, and an example of the command. Each
     field has an `Option` in its annotation.

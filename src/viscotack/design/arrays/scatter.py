@@ -123,16 +123,16 @@ def array_yield(
     load : float
         Force that an array has to reach [N], positive in tension.
     speed, preload : float
-        As for :func:`pull_array`.
+        As for :func:`viscotack.pull_array`.
     draws : int
         Number of arrays.
     accuracy, time_limit, progress
-        As for :func:`pull_array`.
+        As for :func:`viscotack.pull_array`.
 
     Raises
     ------
     ValueError
-        If an array has no relaxed start, or as for :func:`pull_array`.
+        If an array has no relaxed start, or as for :func:`viscotack.pull_array`.
     """
     check_draws(draws, len(array.positions))
     arrays = [scatter.of(array, number) for number in range(draws)]

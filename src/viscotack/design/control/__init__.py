@@ -1,9 +1,7 @@
 """Contacts for other programs: force tables, a controller of a release, a contact with memory."""
 
-from viscotack.design.control.reduced import reduced_contact
-
 from .making import force_table
-from .reduced import ContactState, ReducedContact
+from .reduced import ContactState, ReducedContact, reduced_contact
 from .release import Release
 from .rig import Released, let_go
 from .table import ForceTable

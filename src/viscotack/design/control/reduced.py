@@ -1,6 +1,6 @@
 r"""Reduced contact of a sphere: force from depth, with a contact radius and a memory of the bulk.
 
-Numbers of a reduced contact, from a problem: units, arms, cells and the tables of its edge.
+Its numbers follow from a problem: units, arms, cells and the tables of its edge.
 
 **State.** The half-space is the set of annuli of :mod:`viscotack.theory.crack.contact.history`,
 joined to cells :math:`[s_i, s_{i+1}]`. With E* = 1 an annulus has the relaxed stiffness 1 and, for
@@ -72,7 +72,7 @@ SERIES = 1e-3
 
 
 class ContactState(NamedTuple):
-    """State of n contacts, in the units of :mod:`viscotack.design.control.reduced`.
+    """State of n contacts, in the units of this module.
 
     Attributes
     ----------

@@ -5,11 +5,10 @@ The object has two contacts that carry the same force, and the one that opens de
 derivation is in docs/pick_and_print.md.
 """
 
-from viscotack.design.window.picking import Chance, WindowScatter, opening_chance
 from viscotack.simulate.in_series import SeriesOpening
 
 from .opening import aged, which_opens
-from .picking import Cell, CriticalSpeed, Window, window
+from .picking import Cell, Chance, CriticalSpeed, Window, WindowScatter, opening_chance, window
 from .simulated import SeriesResult, simulate_in_series
 
 __all__ = [

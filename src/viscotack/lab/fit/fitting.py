@@ -208,7 +208,7 @@ def fit(
     poisson_ratio : float
         Poisson ratio nu, in [0, 0.5], constant; 0.5 for rubber, about 0.35 for a glass.
     model : str
-        "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls",
+        "power-law" (:class:`viscotack.RetardationPowerLaw`), "relaxation-power-law", "sls",
         "fractional-zener", "prony"; or "best": all are fitted, and of those within 2 of the
         smallest corrected Akaike criterion the one with the fewest constants is chosen.
     arms : int, optional

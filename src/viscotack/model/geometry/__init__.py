@@ -1,16 +1,15 @@
 """Rigid indenter shapes, and the bodies under them."""
 
-from viscotack.model.geometry.bodies import Base, Bonded, Frictionless
-from viscotack.model.geometry.shapes import Disc, WavySphere
-
-from .bodies import Body, HalfSpace, Layer
+from .bodies import Base, Body, Bonded, Frictionless, HalfSpace, Layer
 from .measured import MeasuredProfile
 from .shapes import (
     Cone,
+    Disc,
     FlatPunch,
     PowerLawProfile,
     Shape,
     Sphere,
+    WavySphere,
     detail,
     effective_sphere,
     end,

@@ -1,6 +1,4 @@
-r"""Elastic bodies: the half-space, and a layer on a rigid base.
-
-What a layer lies on: a rigid base, to which it is bonded or on which it slides.
+r"""Elastic bodies: the half-space, and a layer on a rigid base, bonded to it or sliding on it.
 
 A body implements :meth:`Body.influence`, the surface displacements under pressures, for the
 symmetries it supports, and :meth:`Body.reduced`, which returns the body in other units of length.

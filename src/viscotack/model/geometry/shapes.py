@@ -1,8 +1,5 @@
 """Indenter shapes: the gap between the rigid indenter and the flat body at first contact.
 
-Sphere with axisymmetric waves (Guduru). Disc: flat end of a cylinder with a sharp or a rounded
-edge.
-
 A shape of revolution implements :meth:`gap`, its derivative :meth:`flank`, and :meth:`reduced`,
 which returns the shape in other units of length. `word` is its name in files. A shape whose slope
 decreases somewhere has a length over which it changes (:func:`detail`). A shape known only to some

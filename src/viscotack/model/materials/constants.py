@@ -1,7 +1,4 @@
-"""Cards of the constants shared by materials: name, unit, symbol, range, example.
-
-Validation of the numbers and arrays given to a material, with error messages.
-"""
+"""Constants shared by materials: their cards, and checks of numbers and arrays."""
 
 from typing import Annotated, Any
 

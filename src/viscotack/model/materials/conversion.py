@@ -1,6 +1,4 @@
-r"""Convert between relaxation form, retardation form and approximate Prony series of a solid.
-
-Change the units of modulus and time of a material, by the units of its cards.
+r"""Convert a solid: relaxation and retardation form, approximate Prony series, other units.
 
 A generalised Maxwell solid (parallel branches, :class:`Prony`) and a chain of Voigt elements
 (:func:`retardation_series`) are two forms of the same material:
@@ -11,7 +9,7 @@ A generalised Maxwell solid (parallel branches, :class:`Prony`) and a chain of V
     C(t) = \frac{1}{E_\infty} + \sum_j C_j (1 - e^{-t/\lambda_j})
 
 Their times differ: each retardation time is longer than its relaxation time. The conversion is
-exact, see :mod:`viscotack.model.materials.interconversion`.
+exact, see :mod:`viscotack.model.materials.modes`.
 """
 
 import re

@@ -1,6 +1,6 @@
 """Material passport: a material with its origin, uncertainty and range of validity.
 
-Uncertainty of a passport's material: solids sampled from it, and its times by a temperature.
+What is uncertain of it are solids sampled from it, and its times by a temperature.
 """
 
 import math

@@ -1,7 +1,4 @@
-"""Accuracy and time limit of a simulation.
-
-Verified ranges of numbers, and descriptions of values outside.
-"""
+"""Accuracy and time limit of a simulation, and what lies outside of verified ranges."""
 
 from collections.abc import Mapping
 from typing import Annotated

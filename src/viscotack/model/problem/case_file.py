@@ -1,7 +1,5 @@
 """A problem as tables: the TOML file of a case, JSON, and the body of a request.
 
-Read a Prony series from a CSV file.
-
 docs/input.md describes the format; the keys of a table follow from the cards of its class. Tables
 in SI are [material], [interface], one for the shape, perhaps one for the body, and [protocol]; a
 dimensionless problem has [groups] in place of [protocol], and numbers without units. A rough

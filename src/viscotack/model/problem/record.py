@@ -1,6 +1,6 @@
-"""Problems as plain dictionaries for JSON, and their content-based ids.
+"""Problems as plain dictionaries for JSON, with ids by content, a schema and tables of numbers.
 
-JSON schema of a problem, and tables of its parameters; both are generated from the cards.
+Schema and tables are generated from the cards.
 """
 
 import hashlib

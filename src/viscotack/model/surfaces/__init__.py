@@ -1,10 +1,8 @@
 """Surfaces as maps of heights: from files, generated, and their statistics."""
 
-from viscotack.model.surfaces.heights import Roughness, roughness
-
 from .asperities import Asperities, drawn_asperities, summits
 from .generated import bumps, pillars, self_affine, sphere
-from .heights import HeightMap
+from .heights import HeightMap, Roughness, roughness
 from .map_file import read_map
 
 __all__ = [

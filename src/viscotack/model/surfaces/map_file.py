@@ -29,7 +29,7 @@ from viscotack.units import parse, readable
 # First bytes, by which a text is told, and its largest size [bytes].
 _LOOKED, _LARGEST_TEXT = 4096, 20_000_000
 # Relative differences of the sides of a pixel: square, and noted where larger; refused.
-_EXACT, _SQUARE_PIXELS = 1e-6, 0.01
+_EXACT, _SQUARE = 1e-6, 0.01
 
 
 def read_topography(
@@ -64,7 +64,7 @@ def read_topography(
     except Exception as error:  # its readers raise what a damaged file leads to
         words = str(error).strip() or type(error).__name__
         raise InputError(f"SurfaceTopography cannot read it: {words:.300}") from None
-    if abs(sides[0] / sides[1] - 1) > _SQUARE_PIXELS:
+    if abs(sides[0] / sides[1] - 1) > _SQUARE:
         raise InputError(
             f"its pixels are {sides[0]:.4g} m by {sides[1]:.4g} m, and they must be square; "
             "resample the map"
@@ -122,7 +122,6 @@ _SEPARATORS = (";", "\t", ",", None)
 _LENGTH = re.compile(r"#[^:]*:\s*([0-9.,eE+-]+)\s*([^\s0-9]+)\s*")
 _UNIT = re.compile(r"#[^:]*:\s*([^\s0-9]+)\s*")
 _DECIMAL_COMMAS = re.compile(r"[-+]?[0-9]+(,[0-9]+)?([eE][-+]?[0-9]+)?")
-_SQUARE = 0.01  # largest relative difference of the sides of a pixel that is taken as square
 # Beyond these [m] a unit is probably wrong: sides of a map, and rms heights, below an atom's size.
 _LARGEST_SIDE, _SMALLEST_RMS = 0.3, 1e-11
 # Header of an array [bytes].

@@ -16,9 +16,6 @@ The tension is continuous in gap and speed and tends to that at rest for slow op
 The interface dissipates, :math:`(\sigma - \sigma_0) \dot h \geq 0`. Its stored energy is that of
 the law at rest; the rest of the work is heat.
 
-As functions of the gap alone these classes return the law at rest, which relaxed contacts and
-starts use; :func:`viscotack.model.traction.grows` identifies them.
-
 **Traction laws whose tension grows with the time in contact.** Bonds form while two surfaces touch:
 the longer the contact, the more it holds. An ageing law combines a law of the gap at rest,
 :math:`\sigma_0(h)`, with a growth G of the time t that a point of the surface has been in contact:
@@ -31,10 +28,10 @@ A point comes into contact when its gap falls below that of the largest tension.
 still when the gap has grown beyond, and is zero again once the bonds are broken, where the law at
 rest has less than 1 % of its work left. So surfaces that come together feel the law at rest, and a
 repeated contact ages from the beginning. The interface dissipates: what its tension does beyond
-that at rest is heat (:mod:`viscotack.simulate.ageing`).
+that at rest is heat (:mod:`viscotack.simulate.growth`).
 
 As functions of the gap alone these classes return the law at rest, which relaxed contacts and
-starts use; :func:`viscotack.model.traction.ages` identifies them.
+starts use; :func:`grows` and :func:`ages` identify them.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ approximated by one of the retardation power laws of the training data,
 with its own modulus ratio k, and the exponent and time that minimise the difference of the
 logarithms of the two creeps. Creep is sampled at fifteen fixed multiples of h0/v, so rate and
 temperature are not inputs: a slower solid retracted more slowly has the same samples. The weights
-of the samples and the start of the search are computed by :mod:`.linear_solids`;
+of the samples and the start of the search are computed by the networks above;
 a few steps are sufficient. A power law is equivalent to itself.
 """
 

@@ -3,8 +3,8 @@ r"""Widths of intervals: a predicted local error size times a calibrated factor.
 A separate network predicts the 90 % quantile of the errors around a case, of log10 of the force, of
 log10 of the work, of the curve in tension and of log10 of the travel to zero force. Its inputs are
 those of the case, the spread of the networks, and the slope of the force between its limits
-(:mod:`training.calibration`). It is smooth, so the widths are too. The factor is chosen such that
-the interval includes the desired fraction of cases outside the training data.
+(``research/training/calibration.py``). It is smooth, so the widths are too. The factor is chosen
+such that the interval includes the desired fraction of cases outside the training data.
 """
 
 from __future__ import annotations

@@ -11,9 +11,9 @@ If the interface energy grows with the opening speed to Q times the work of adhe
 amplifies it by :math:`\Gamma/Q`. An interface Q times as strong has the Tabor number
 :math:`\mu Q^{q/(2q - 1)}`, for a sphere :math:`\mu Q^{2/3}`, and a zone Q times shorter.
 
-**Uncertainty of the steady-crack contact model, measured against simulations.** This module
-contains the outcome of a comparison with simulations, and its range. The model neglects the zone
-length relative to the contact radius and to the travel of the edge; the band has a term for each.
+**Band.** It is the outcome of a comparison with simulations, and has a range. The model neglects
+the zone length relative to the contact radius and to the travel of the edge; the band has a term
+for each.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
 """Rough surfaces in three dimensions, pulled off a soft body at a set rate."""
 
-from viscotack.simulate.rough.problem import problem_of, read_rough, read_rough_case
-
 from .criteria import LONGEST_RANGE, Stickiness, stickiness
-from .problem import RoughProblem, Zone
+from .problem import RoughProblem, Zone, problem_of, read_rough, read_rough_case
 from .pulling import pull
 from .result import RoughResult
 from .superposition import Superposition, superposed

@@ -77,7 +77,7 @@ class Theory(NamedTuple):
     def amplification_of_passage(
         self, low: float, high: float, *, material: Material
     ) -> Callable[[Array], Array]:
-        """Return Gamma as a function of the log_time of :func:`passage`, in an interval."""
+        """Return Gamma as a function of the log_time of :meth:`passage`, in an interval."""
         start, grid = _grid(low - np.log(self.factor), high - np.log(self.factor))
         glassy, _ = _parts(grid, material, self.response)
         coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T

@@ -126,7 +126,7 @@ def contact_radius_at_depth(
     Parameters
     ----------
     depth : array_like
-        Depth [m], not below that of :func:`jkr.instability`.
+        Depth [m], not below that of :func:`instability`.
     radius, contact_modulus, work_of_adhesion : array_like
         R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 
@@ -164,7 +164,7 @@ def contact_radius_at_force(
     Parameters
     ----------
     force : array_like
-        Force [N], compression positive, not below minus :func:`jkr.pull_off_force`.
+        Force [N], compression positive, not below minus :func:`pull_off_force`.
     radius, contact_modulus, work_of_adhesion : array_like
         R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 

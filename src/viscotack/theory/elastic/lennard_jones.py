@@ -16,9 +16,9 @@ Source: this package; the table is computed by ``research/elastic_table.py``; li
 (1932), Philosophical Magazine 13, 853 (no DOI known to this package), and Johnson, Kendall &
 Roberts (1971), doi:10.1098/rspa.1971.0141.
 
-**Computed elastic pull-off of a Lennard-Jones sphere; written by research/elastic_table.py.** Tabor
-number, pull-off force [1.5 pi R w] and work to pull-off from zero force [1.5 pi R w h0], at the
-Chebyshev points of ln mu. Estimated solver errors: 5e-5 of the force, 3e-4 of the work.
+The table, `ROWS`, has the Tabor number, the pull-off force [1.5 pi R w] and the work to pull-off
+from zero force [1.5 pi R w h0] at the Chebyshev points of ln mu. Estimated solver errors: 5e-5 of
+the force, 3e-4 of the work.
 """
 
 from __future__ import annotations

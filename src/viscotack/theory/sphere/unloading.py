@@ -107,7 +107,8 @@ def retraction(
     Parameters
     ----------
     depth : float
-        Depth of the relaxed start [m], not below that of :func:`jkr.instability`.
+        Depth of the relaxed start [m], not below that of
+        :func:`viscotack.theory.elastic.jkr.instability`.
     law : CrackLaw
         Crack law of the edge. The errors above hold for Persson and Brener with the length of
         :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.

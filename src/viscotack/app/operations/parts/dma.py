@@ -1,7 +1,4 @@
-"""Options for the files of a DMA, relaxation or creep test.
-
-Options for the master curve: time-temperature superposition of tests.
-"""
+"""Options for the files of a DMA, relaxation or creep test, and for their master curve."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal

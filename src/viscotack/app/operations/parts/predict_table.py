@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.app.operations.parts.tables import write_workbook
 from viscotack.campaign.listed import EMPTY, read_words
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
@@ -30,7 +29,7 @@ from viscotack.units import is_number
 from ..request import Answer, Told
 from ..statement import Statement
 from .record_words import units_of
-from .tables import Writer
+from .tables import Writer, write_workbook
 
 Rows = Sequence[Mapping[str, Any]]
 Tell = Callable[[Told], None]

@@ -1,9 +1,4 @@
-"""Options for a material: a published name, a passport, a table, or numbers.
-
-Options for a layer on a rigid base: its thickness, and whether it is bonded. The published
-materials, and materials as tables of a case file. Example cases for new users, also used to warm up
-worker processes.
-"""
+"""Options for a material and a layer; published materials, and example cases, as tables."""
 
 import tomllib
 from importlib.resources import files

@@ -1,8 +1,4 @@
-"""Writers of outputs: rows as CSV, and text.
-
-Tables as an XLSX workbook: units in the headings, SI prefixes by size. Conversion of numbers to
-JSON: plain lists, None for missing values.
-"""
+"""Outputs: rows as CSV or as an XLSX workbook with units in the headings, text, plain data."""
 
 import io
 import re

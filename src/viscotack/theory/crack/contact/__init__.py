@@ -4,8 +4,6 @@ Lengths along the surface are in beta, heights in beta^2/R, forces in R dg, time
 unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
-from viscotack.theory.crack.contact.history import Edge
-
 from ._profile import (
     Profile,
     SpheresOnLayers,
@@ -15,7 +13,7 @@ from ._profile import (
     radius_at_force,
 )
 from .growing import GrowingCracks, GrowingEdges, NeighbourEdges
-from .history import Contact, Curve, Drive
+from .history import Contact, Curve, Drive, Edge
 from .recession import Curves, recede
 from .series import Elastic, Pulled, Receding, Scales, pull_apart
 

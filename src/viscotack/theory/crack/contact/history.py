@@ -1,8 +1,5 @@
 r"""Contact with any loading history: annuli of viscoelastic springs and a moving edge.
 
-Tabulated energy of an edge, for fast scalar and vectorised evaluation. Memory of the bulk: modes of
-the creep, and the hereditary travel of a retraction.
-
 An annulus s in contact has the opening :math:`\chi_u = D - g(s)`; outside the contact the opening
 is the remaining creep. Its elastic part :math:`\chi_e` follows from the chain :math:`\chi_u = c
 \chi_e + \sum_j w_j d_j`, :math:`\tau_j d_j' = \chi_e - d_j`, and is zero outside. The force is

@@ -13,9 +13,9 @@ times the creep. The zone of the crack must be short beside the thickness too.
 The radius is the independent variable: for each radius the time is computed at which the edge
 reaches it. Units as in :mod:`._profile`; times in the material's unit.
 
-**Limits and error of a crack that recedes on a film, from simulations.** Of 56 simulations with
+**Limits and error of a receding crack, from simulations of films.** Of 56 simulations with
 Lennard-Jones forces (thickness 0.1 to 3 beta, Tabor numbers 5 to 16, modulus ratios 0.03 and 0.1,
-Poisson ratios 0.3 to 0.5 and sliding) the theory (:mod:`.recession`) applies to 29, and is within 3
+Poisson ratios 0.3 to 0.5 and sliding) the theory (:func:`recede`) applies to 29, and is within 3
 % + 7 % times :math:`\ell a/b^2` of each; :math:`\ell` is the length of the cohesive zone and a the
 contact radius, both at pull-off. The number is limited to 0.5: on thinner films the forces reach
 through the film, and the force is smaller, down to half.

@@ -1,9 +1,7 @@
 """Steady crack with a full traction law, for any linear solid, opening and closing."""
 
-from viscotack.theory.crack.steady.cracks import Comparison, compared
-
 from ._branch import energy_of_odds
-from .cracks import MESH_ERROR, Profile, SteadyCrack
+from .cracks import MESH_ERROR, Comparison, Profile, SteadyCrack, compared
 from .neighbour import NeighbourCrack
 
 __all__ = [

@@ -1,6 +1,6 @@
 """Newton's method for the balance of the law's tractions and those of the solid.
 
-Elastic crack of a law, the starting point of all other cracks.
+The elastic crack of a law is the starting point of all others.
 """
 
 from __future__ import annotations

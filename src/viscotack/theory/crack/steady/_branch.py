@@ -15,9 +15,13 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
-from viscotack.theory.crack.steady._mesh import (
+from viscotack.threads import one_blas_thread
+
+from ._balance import Law, Solution, System, solved
+from ._mesh import (
     AHEAD,
     AHEAD_FOR_ERROR,
+    Mesh,
     alone,
     between,
     closing_inflow,
@@ -27,10 +31,6 @@ from viscotack.theory.crack.steady._mesh import (
     opening_matrix,
     stated,
 )
-from viscotack.threads import one_blas_thread
-
-from ._balance import Law, Solution, System, solved
-from ._mesh import Mesh
 
 STEP = np.log(10) / 4
 _SHORTEST_STEP = STEP / 64

@@ -28,19 +28,19 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
-from viscotack.theory.crack.steady._mesh import (
+
+from ._balance import Law, Solution, System, slopes, solved
+from ._branch import STEP, walked
+from ._mesh import (
     AHEAD,
     AHEAD_FOR_ERROR,
     FINE,
+    Mesh,
     alone,
     between,
     curve,
     stated,
 )
-
-from ._balance import Law, Solution, System, slopes, solved
-from ._branch import STEP, walked
-from ._mesh import Mesh
 
 # Gamma - 1 of the first and the last computed crack, and largest number of cracks.
 _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
