@@ -125,7 +125,7 @@ def write_reference(app, config):
         for name in ("viscotack", *rooms):
             (folder / f"{name}.rst").write_text(f"{name}\n{'=' * len(name)}\n")
         return
-    face = [(room, "viscotack", names) for room, names in viscotack._NAMES.items()]
+    face = [(room, "viscotack", names.split()) for room, names in viscotack._NAMES.items()]
     pages = {"viscotack": face}
     for room in rooms:
         module = importlib.import_module(f"viscotack.{room}")

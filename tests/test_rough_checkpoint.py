@@ -86,4 +86,4 @@ def test_a_killed_run_continues_to_the_same_digits(tmp_path, whole, share):
     assert_same(found, whole)
     again = []
     assert_same(pull(problem(), **HOW, checkpoint=path, progress=again.append), whole)
-    assert min(again) > 0.8  # the finished run is in the file; those for its errors are not
+    assert min(again) > 0.65  # the finished run is in the file; those for its errors are not

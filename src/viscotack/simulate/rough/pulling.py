@@ -53,7 +53,7 @@ _FEW = 2.8
 # Bytes per pixel, and per pixel and mode of the solid, of periodic and of other maps.
 _BYTES = {True: (400, 50), False: (850, 55)}
 # Share of the main run in the total work.
-_MAIN = 0.8
+_MAIN = 0.65
 
 
 def pull(
@@ -81,7 +81,7 @@ def pull(
         error of the pixels is that of the map.
     estimate_error : bool
         Whether errors are estimated, from two runs with coarser steps on pixels twice as large,
-        which take about a quarter as long.
+        which take about half as long.
     maps : int
         Up to how many maps of gap and pressure are kept, besides that of the largest tension.
     time_limit : float, optional
