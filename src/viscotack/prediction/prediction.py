@@ -97,7 +97,9 @@ class Prediction:
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
     joint: bool = False
-    warn: Callable[[], tuple[str, ...]] = field(default=tuple, repr=False, compare=False)
+    warn: Callable[[], tuple[str, ...]] = field(
+        default_factory=lambda: tuple, repr=False, compare=False
+    )
 
     def __repr__(self) -> str:
         unit = next(iter(self.problem.outputs.observables.values())).unit
