@@ -97,6 +97,7 @@ class Prediction:
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
     joint: bool = False
+    # made for each, because a class as the default would be a member of this one
     warn: Callable[[], tuple[str, ...]] = field(
         default_factory=lambda: tuple, repr=False, compare=False
     )
