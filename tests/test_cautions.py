@@ -14,7 +14,7 @@ from viscotack.model.materials.library import published
 from viscotack.model.materials.passport import Evidence, Passport
 from viscotack.model.materials.passport_file import write_passport
 from viscotack.model.materials.shift import Arrhenius
-from viscotack.prediction import cautions_on
+from viscotack.prediction.cautions import cautions_on
 from viscotack.theory import SteadyCrack
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=10e6, tau0=0.01, poisson_ratio=0.5)

@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from dimensionless import SOLID
 from viscotack.model.problem.nouns import own_nouns
-from viscotack.prediction.simulation import SIMULATION
+from viscotack.prediction.tier import SIMULATION
 from viscotack.prediction.tiers import TIERS
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"

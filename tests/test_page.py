@@ -10,8 +10,8 @@ from viscotack.app.operations.request import Caller
 from viscotack.errors import InputError, OutOfRange
 from viscotack.files.toml import toml_value
 from viscotack.model.problem.case_file import case_of_tables
-from viscotack.prediction import predict
 from viscotack.prediction.closed_forms import closed_forms
+from viscotack.prediction.predict import predict
 from viscotack.theory import lennard_jones
 
 examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)

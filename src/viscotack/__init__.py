@@ -85,13 +85,13 @@ if TYPE_CHECKING:
     from viscotack.plot.simulation import draw_overview as draw_overview
     from viscotack.plot.simulation import draw_radius as draw_radius
     from viscotack.plot.style import save_figure as save_figure
-    from viscotack.prediction import Advice as Advice
-    from viscotack.prediction import Estimate as Estimate
-    from viscotack.prediction import Prediction as Prediction
-    from viscotack.prediction import advise as advise
-    from viscotack.prediction import predict as predict
-    from viscotack.prediction import predict_table as predict_table
-    from viscotack.prediction import prediction_summary as prediction_summary
+    from viscotack.prediction.advice import Advice as Advice
+    from viscotack.prediction.advice import advise as advise
+    from viscotack.prediction.closed_forms import Estimate as Estimate
+    from viscotack.prediction.predict import predict as predict
+    from viscotack.prediction.prediction import Prediction as Prediction
+    from viscotack.prediction.prediction import prediction_summary as prediction_summary
+    from viscotack.prediction.table import predict_table as predict_table
     from viscotack.prediction.uncertainty import Uncertainty as Uncertainty
     from viscotack.prediction.uncertainty import uncertainty as uncertainty
     from viscotack.result import Energies as Energies
@@ -174,7 +174,11 @@ _NAMES = {
     "result.cycles": "Cycle cycles time_to_detachment write_cycles",
     "result.edge_energy": "EdgeEnergy edge_energy",
     "result.loops": "Loop",
-    "prediction": "advise Advice Estimate predict predict_table Prediction prediction_summary",
+    "prediction.advice": "advise Advice",
+    "prediction.closed_forms": "Estimate",
+    "prediction.predict": "predict",
+    "prediction.table": "predict_table",
+    "prediction.prediction": "Prediction prediction_summary",
     "plot.simulation": "draw_energy draw_force draw_radius draw_overview",
     "plot.design": "draw_regimes",
     "plot.style": "save_figure",

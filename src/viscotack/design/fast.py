@@ -27,7 +27,7 @@ from viscotack.model.materials.conversion import scaled
 from viscotack.model.problem import Problem
 from viscotack.model.protocol import AtForce, Retraction
 from viscotack.model.traction import LennardJones
-from viscotack.prediction import predict
+from viscotack.prediction.predict import predict
 from viscotack.prediction.tiers import AT_ONCE
 
 # Budgets of a prediction [s]: surrogates alone, and theories.

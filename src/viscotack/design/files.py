@@ -173,7 +173,7 @@ class DesignFile:
 
     def cautions(self, choice: Choice) -> list[str]:
         """Return the cautions on the forces of a design, each with the speeds it belongs to."""
-        from viscotack.prediction import cautions_on
+        from viscotack.prediction.cautions import cautions_on
 
         from .fast import SURROGATES, FastTier
         from .margins import pad_of

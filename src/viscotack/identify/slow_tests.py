@@ -27,7 +27,7 @@ from viscotack.model.materials.passport import Passport, allowed
 from viscotack.model.problem import Problem
 from viscotack.model.protocol import AtForce, Retraction
 from viscotack.model.traction import LennardJones
-from viscotack.prediction import advise
+from viscotack.prediction.advice import advise
 from viscotack.theory import maugis, transition
 from viscotack.units import readable
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from viscotack.cards import Pairs, cards
 from viscotack.model.geometry import FlatPunch
 from viscotack.model.problem import Problem, plane, revolution
-from viscotack.prediction import Prediction, prediction_summary
+from viscotack.prediction.prediction import Prediction, prediction_summary
 from viscotack.result import Result
 from viscotack.result.observables import summary
 from viscotack.units import readable, readable_interval

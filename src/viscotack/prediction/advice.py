@@ -17,7 +17,6 @@ from .cautions import LINEAR_SPEED, beyond_linear
 from .closed_forms import Estimate, check_test, is_classic
 from .other_contacts import SATURATED, TOLERANCES, OtherContact, check_contact, other_contact
 from .prediction import Prediction
-from .simulation import SIMULATION
 from .theories import (
     CLOSED_FORM,
     CRACK_CONTACT_VERIFIED,
@@ -26,8 +25,8 @@ from .theories import (
     estimate_of,
     forms_of,
 )
-from .tier import Question, Tier
-from .tiers import CLOSED_FORMS, CRACK, EXACT, LEARNED_PUNCH, SOON, TIERS, best
+from .tier import LEARNED_PUNCH, SIMULATION, Question, Tier
+from .tiers import CLOSED_FORMS, CRACK, EXACT, SOON, TIERS, best
 
 # Strain of a film up to which linear elasticity is a good approximation.
 _SMALL_FILM_STRAIN = 0.1

@@ -21,9 +21,6 @@ from viscotack.model.materials.passport import allowed
 from viscotack.model.problem import Case, Problem
 from viscotack.units import readable
 
-from .closed_forms import is_classic, is_plain
-from .other_contacts import REST_ZONE
-from .theories import crack_of, forms_of
 from .tier import Question
 
 if TYPE_CHECKING:
@@ -31,6 +28,8 @@ if TYPE_CHECKING:
 
 # Crack speed above which silicone experiments exceed linear theory [m/s].
 LINEAR_SPEED = 100e-6
+# Length of the zone of a relaxed edge [beta], times the squared Tabor number.
+REST_ZONE = 0.75
 
 
 def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
@@ -112,6 +111,10 @@ def _edge_of(asked: Question) -> tuple[float, float] | None:
 
     None for contacts of which no theory knows it.
     """
+    # only here: predictions by a surrogate need no theory
+    from .closed_forms import is_classic, is_plain
+    from .theories import crack_of, forms_of
+
     try:
         if is_classic(asked.groups) and is_plain(asked.groups):
             forms = asked.once(forms_of)

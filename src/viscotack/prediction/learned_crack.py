@@ -15,11 +15,8 @@ from viscotack.theory.elastic.relaxed import contact_in_groups
 
 from .power_laws import VERIFIED, inputs_of_sphere
 from .prediction import Prediction, of_theory, with_curve
-from .tier import Question
+from .tier import LEARNED_CRACK, Question
 
-__all__ = ["LEARNED_CRACK", "VERIFIED", "by_learned_crack"]
-
-LEARNED_CRACK = "learned crack contact"
 # Tabor number from which the theory of the crack is used as it is.
 _FADED = 20.0
 
@@ -93,3 +90,6 @@ def _at_seam(tabor: float, rows: Array) -> Array:
         np.nan if work_doubtful else answers.work_to_pull_off / said.work_to_pull_off,
     )
     return ratio ** float(1 - np.log(tabor / seam) / np.log(_FADED / seam))
+
+
+TIERS = {LEARNED_CRACK: ((VERIFIED,), by_learned_crack)}

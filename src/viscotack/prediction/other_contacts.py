@@ -33,12 +33,11 @@ from viscotack.theory.crack.contact.recession import (
 )
 from viscotack.theory.elastic import disc, relaxed
 
+from .cautions import REST_ZONE
 from .closed_forms import Estimate
 
 # Differences from the half-space for which a thickness is stated.
 TOLERANCES = (0.1, 0.05, 0.01)
-# Length of the zone of a relaxed edge [beta], times the squared Tabor number.
-REST_ZONE = 0.75
 # Part of the fast force at which the gain is called saturated, and rates [beta^2/R per time unit]
 # among which it is searched for.
 SATURATED, _RATES = 0.9, np.geomspace(1e-4, 1e7, 34)

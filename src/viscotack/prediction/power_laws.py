@@ -14,9 +14,8 @@ from viscotack.prediction.surrogate import physics, store
 from .beyond import beyond
 from .learned import INSIDE, further_prediction, out_of_range, within
 from .prediction import Prediction
-from .tier import Question, Verified
+from .tier import SURROGATE, Question, Verified
 
-SURROGATE = "surrogate"
 VERIFIED = Verified(
     shapes=(Sphere,),
     bodies=(HalfSpace,),
@@ -64,3 +63,6 @@ def inputs_of_sphere(asked: Question) -> tuple[Array, str]:
         si = {"preload": (scales.length, "m"), "rate": (scales.length / scales.time, "m/s")}
     out = out_of_range(learned, row, {"preload": "h0", "rate": "h0/tau0"}, si)
     return row[None], "; ".join([*out.values(), *filter(None, [no_start])])
+
+
+TIERS = {SURROGATE: ((VERIFIED,), by_power_laws)}

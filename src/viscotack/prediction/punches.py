@@ -18,9 +18,8 @@ from viscotack.prediction.surrogate.punch_physics import INPUTS, PRELOAD
 from .beyond import slower
 from .learned import INSIDE, further_prediction, out_of_range, within
 from .prediction import Prediction
-from .tier import Question, Verified
+from .tier import LEARNED_PUNCH, Question, Verified
 
-LEARNED_PUNCH = "surrogate of punches"
 VERIFIED = Verified(
     shapes=(FlatPunch,),
     bodies=(Frictionless,),
@@ -90,3 +89,6 @@ def _out(asked: Question, learned: Surrogate, row: Array, sized: bool) -> str:
     if "preload" in found:
         found["preload"] += " for this size and thickness"
     return "; ".join(words for name, words in found.items() if sized or name != "preload")
+
+
+TIERS = {LEARNED_PUNCH: ((VERIFIED,), by_punches)}

@@ -12,9 +12,7 @@ from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
 from viscotack.simulate.crack_contact.by_crack import not_measured
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
-from .tier import Question
-
-SIMULATION = "simulation"
+from .tier import SIMULATION, Question
 
 
 def by_simulation(asked: Question) -> Prediction:
@@ -77,3 +75,6 @@ def _work(result: Result) -> float | None:
 
 def _interval(value: float, error: float) -> tuple[float, float]:
     return value * (1 - error), value * (1 + error)
+
+
+TIERS = {SIMULATION: ((), by_simulation)}

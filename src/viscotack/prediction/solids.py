@@ -15,11 +15,10 @@ from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from . import power_laws
 from .beyond import beyond
 from .learned import INSIDE, further_prediction, within
-from .power_laws import SURROGATE, inputs_of_sphere
+from .power_laws import inputs_of_sphere
 from .prediction import Prediction
-from .tier import ANY, Question, Uncertain
+from .tier import ANY, SOLIDS, SURROGATE, Question, Uncertain
 
-SOLIDS = "surrogate of solids"
 # Any linear solid: its creep is compared with that of the training data.
 VERIFIED = replace(power_laws.VERIFIED, solids=ANY)
 # Times of the modes that lag, in h0 over the speed, and their tolerance; the longest lag over the
@@ -109,3 +108,6 @@ def _by_lag(asked: Question, like: linear_solids.Alike, lag: float, variance: fl
     slow, (low, high) = float(pull_off_ratio(asked.groups.tabor)), found.interval
     wider = _OF_SPECTRUM * max(found.pull_off_force - slow, 0.0)
     return replace(found, interval=(max(low - wider, min(low, slow)), high + wider))
+
+
+TIERS = {SOLIDS: ((VERIFIED,), by_solids)}

@@ -15,10 +15,9 @@ from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.trust import check_confidence
 
 from .learned import not_certain
-from .power_laws import SURROGATE
 from .predict import predict
 from .prediction import MEASURED
-from .punches import LEARNED_PUNCH
+from .tier import LEARNED_PUNCH, SURROGATE
 
 if TYPE_CHECKING:
     from viscotack.model.problem.kinds import Kind

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -28,7 +29,7 @@ from viscotack.prediction.closed_forms import (
 )
 from viscotack.prediction.prediction import Prediction, of_theory, with_curve
 from viscotack.prediction.surrogate.line import Curves
-from viscotack.prediction.tier import ANY, Question, Verified
+from viscotack.prediction.tier import ANY, CRACK_CONTACT, Question, Verified
 from viscotack.simulate.crack_contact.by_crack import (
     FURTHER,
     LEAST_TABOR,
@@ -143,7 +144,6 @@ def by_closed_form(asked: Question, name: str) -> Prediction:
     return of_theory(asked, found.pull_off_force, error, name, why)
 
 
-CRACK_CONTACT = "crack contact"
 # The theory describes a solid by its modulus and its creep, and was compared with simulations of
 # several solids; `not_measured` lists the ranges.
 CRACK_CONTACT_VERIFIED = Verified(
@@ -206,3 +206,10 @@ def by_crack_contact(asked: Question) -> Prediction:
     interval = (float(work * (1 - of_work)), float(work * (1 + of_work)))
     travel = np.array([1 - of_travel, 1 + of_travel])
     return with_curve(replace(plain, work_interval=interval), curves, of_curve, travel)
+
+
+_CLOSED = {name: (CLOSED_FORM,) for name in ("unloading", "detachment", "rate-fit", "glassy")}
+TIERS = {CRACK_CONTACT: ((CRACK_CONTACT_VERIFIED,), by_crack_contact)} | {
+    name: (verified, partial(by_closed_form, name=name))
+    for name, verified in {"elastic": (CLOSED_FORM, ELASTIC), **_CLOSED}.items()
+}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from viscotack.errors import OutOfRange
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
 
     from .prediction import Prediction
 
+# Names of the tiers other than the closed forms, as in the `method` of their predictions.
+SURROGATE, SOLIDS = "surrogate", "surrogate of solids"
+LEARNED_PUNCH, LEARNED_CRACK = "surrogate of punches", "learned crack contact"
+CRACK_CONTACT, SIMULATION = "crack contact", "simulation"
 _T = TypeVar("_T")
 
 
@@ -152,17 +157,24 @@ class Tier:
         Name, as in the `method` of its predictions.
     cost : float
         Approximate time of a prediction [s].
-    verified : tuple of Verified
-        Its allow-lists, one of which must contain the problem; empty if it accepts all classes.
-    reply : callable
-        Computes the prediction of a problem on the list; raises OutOfRange if a number is out of
+    module : str
+        Its module in this folder, imported on first use. `TIERS` there gives, by name, its
+        allow-lists and the function that predicts, which raises OutOfRange if a number is out of
         range.
     """
 
     name: str
     cost: float
-    verified: tuple[Verified, ...]
-    reply: Callable[[Question], Prediction]
+    module: str
+
+    @property
+    def verified(self) -> tuple[Verified, ...]:
+        """Its allow-lists, one of which must contain the problem; empty if it accepts all."""
+        return self._of_module[0]
+
+    @property
+    def _of_module(self) -> tuple[tuple[Verified, ...], Callable[[Question], Prediction]]:
+        return import_module(f".{self.module}", __package__).TIERS[self.name]
 
     def answer(self, problem: Case, *, confidence: float = 0.9) -> Prediction:
         """Predict by this tier.
@@ -176,14 +188,15 @@ class Tier:
 
     def ask(self, asked: Question) -> Prediction:
         """Return :meth:`answer` for a question with cached results."""
-        reasons = [each.refuses(asked.groups) for each in self.verified]
+        verified, reply = self._of_module
+        reasons = [each.refuses(asked.groups) for each in verified]
         if reasons and all(reasons):
             raise OutOfRange(reasons[0])
         try:
-            return self.reply(asked)
+            return reply(asked)
         except OutOfRange:
             raise
         except ValueError as error:
-            if not self.verified:
+            if not verified:
                 raise  # a rejection by the simulation is bad input
             raise OutOfRange(str(error)) from error

@@ -9,21 +9,22 @@ the interval, and the name of the tier.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.materials import Elastic, RetardationPowerLaw
-from viscotack.prediction import theories
 
-from . import learned_crack, power_laws, punches, solids
-from .learned_crack import LEARNED_CRACK, by_learned_crack
-from .power_laws import SURROGATE, by_power_laws
 from .prediction import Prediction
-from .punches import LEARNED_PUNCH, by_punches
-from .simulation import SIMULATION, by_simulation
-from .solids import SOLIDS, by_solids
-from .theories import CLOSED_FORM, CRACK_CONTACT, ELASTIC, by_closed_form, by_crack_contact
-from .tier import Question, Tier, Uncertain
+from .tier import (
+    CRACK_CONTACT,
+    LEARNED_CRACK,
+    LEARNED_PUNCH,
+    SIMULATION,
+    SOLIDS,
+    SURROGATE,
+    Question,
+    Tier,
+    Uncertain,
+)
 
 # Time budgets [s]: surrogates alone; surrogates and theories, the default.
 AT_ONCE, SOON = 0.01, 1.0
@@ -33,22 +34,19 @@ _SIMULATE = (
 )
 
 LEARNED = (
-    Tier(SURROGATE, 1e-3, (power_laws.VERIFIED,), by_power_laws),
-    Tier(SOLIDS, 4e-3, (solids.VERIFIED,), by_solids),
-    Tier(LEARNED_PUNCH, 2e-3, (punches.VERIFIED,), by_punches),
-    Tier(LEARNED_CRACK, 1e-3, (learned_crack.VERIFIED,), by_learned_crack),
+    Tier(SURROGATE, 1e-3, "power_laws"),
+    Tier(SOLIDS, 4e-3, "solids"),
+    Tier(LEARNED_PUNCH, 2e-3, "punches"),
+    Tier(LEARNED_CRACK, 1e-3, "learned_crack"),
 )
 _OF_MODEL = {"sphere": LEARNED[0], "punch": LEARNED[2]}
 CLOSED_FORMS = {
-    name: Tier(name, 0.02, verified, partial(by_closed_form, name=name))
-    for name, verified in (
-        ("elastic", (CLOSED_FORM, ELASTIC)),
-        *((x, (CLOSED_FORM,)) for x in ("unloading", "detachment", "rate-fit", "glassy")),
-    )
+    name: Tier(name, 0.02, "theories")
+    for name in ("elastic", "unloading", "detachment", "rate-fit", "glassy")
 }
-CRACK = Tier(CRACK_CONTACT, 0.5, (theories.CRACK_CONTACT_VERIFIED,), by_crack_contact)
+CRACK = Tier(CRACK_CONTACT, 0.5, "theories")
 THEORIES = (CRACK, *CLOSED_FORMS.values())
-EXACT = Tier(SIMULATION, 3.0, (), by_simulation)
+EXACT = Tier(SIMULATION, 3.0, "simulation")
 TIERS = (*LEARNED, *THEORIES, EXACT)
 
 

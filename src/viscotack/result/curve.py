@@ -6,16 +6,19 @@ points: the last 16 lie between zero force and pull-off. A start in tension has 
 part.
 """
 
-from typing import Any, cast
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.result import Result
-from viscotack.result.observables import PullOff
-from viscotack.result.parts import spans
+
+if TYPE_CHECKING:
+    from .observables import PullOff
+    from .result import Result
 
 POINTS, TENSILE = 24, 16
 PRESSED = POINTS - TENSILE
@@ -129,6 +132,8 @@ def retraction(result: Result) -> tuple[Array, Array, Array]:
     From its deepest step on; the depth falls from step to step. Where the curve jumps it stands
     still, and the state after the jump is kept. Force and radius are dimensionless as in `Result`.
     """
+    from .parts import spans
+
     turn = spans(result)[-1].turn
     depth = result.depth[turn:]
     first = int(np.flatnonzero(depth == depth.max())[-1])

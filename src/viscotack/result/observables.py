@@ -10,7 +10,6 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Layer
 from viscotack.model.problem.outputs import Unit
 from viscotack.model.problem.record import run_id, to_dict
-from viscotack.theory.punch.curve import thin_layer_surface_energy
 from viscotack.threads import caught_warnings
 
 from . import Outcome, Result
@@ -506,6 +505,8 @@ def effective_surface_energy(result: Result) -> float:
     >>> f"{effective_surface_energy(result):.2f}"
     '2.59'
     """
+    from viscotack.theory.punch.curve import thin_layer_surface_energy
+
     groups = _punch(result)
     if not isinstance(groups.body, Layer):
         raise InputError(f"the thin-layer formula needs a layer, got a {groups.body.word}")

@@ -40,9 +40,10 @@ from viscotack.model.problem.outputs import PLANE, REVOLUTION
 from viscotack.model.problem.protocol_table import STARTS
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction, states
 from viscotack.model.traction import Tabulated
-from viscotack.prediction import cautions_on, predict
 from viscotack.prediction.advice import advice_on, estimate_by, estimates_without_advice
+from viscotack.prediction.cautions import cautions_on
 from viscotack.prediction.closed_forms import Estimate
+from viscotack.prediction.predict import predict
 from viscotack.prediction.prediction import Prediction
 from viscotack.prediction.theories import crack_of, forms_of
 from viscotack.prediction.tier import Question

@@ -16,7 +16,8 @@ from .simulate import HowLong
 
 if TYPE_CHECKING:
     from viscotack.model.problem.outputs import Kind
-    from viscotack.prediction import Advice, Prediction
+    from viscotack.prediction.advice import Advice
+    from viscotack.prediction.prediction import Prediction
     from viscotack.result import Result
 
 # Meaning of the intervals of a prediction.
@@ -105,7 +106,7 @@ class Predict(Request):
             return self._of_table(caller)
         from viscotack.clock import limited
         from viscotack.files.text import write_table
-        from viscotack.prediction import predict
+        from viscotack.prediction.predict import predict
         from viscotack.prediction.prediction import prediction_summary
         from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome

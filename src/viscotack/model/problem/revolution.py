@@ -29,7 +29,6 @@ from viscotack.model.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.model.problem.units import InSI, time_unit
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Units, states
 from viscotack.model.protocol.words import SPHERE_UNITS
-from viscotack.theory.elastic import indenter, on_layer
 from viscotack.units import positive
 
 # Largest contact radius over sphere radius. At 0.5 the paraboloid's gap differs by 7 % from the
@@ -208,6 +207,8 @@ def _check_disc(problem: Any) -> None:
         )
     stiffness, limit = 2 * disc.radius, "half its radius"
     if isinstance(body := problem.body, Layer):
+        from viscotack.theory.elastic import on_layer
+
         on_layer.check_disc(disc.radius, body)
         stiffness = float(on_layer.stiffness(np.array(disc.radius), body))
         if DEEPEST_LAYER * body.thickness < most:
@@ -242,6 +243,8 @@ def _check_flank(problem: Any) -> None:
         a, limit = pressed, f"its depth would be over {DEEPEST_LAYER} thicknesses of the layer"
     if a >= exp(_FAR):
         return  # the flank is nowhere as steep
+    from viscotack.theory.elastic import indenter
+
     solid: Any = {
         "shape": shape,
         "body": problem.body,
@@ -267,6 +270,8 @@ def _pressed_through(problem: Any) -> float:
     shape, body = problem.geometry, problem.body
     if not isinstance(body, Layer):
         return np.inf
+
+    from viscotack.theory.elastic import indenter, on_layer
 
     def excess(radius: Any) -> Any:
         depth = indenter.bare_depth(radius, shape=shape, body=body)

@@ -11,6 +11,7 @@ import os
 import zlib
 from collections.abc import Iterable, Mapping
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -24,12 +25,8 @@ from viscotack.files.archive import read_arrays
 from viscotack.files.whole import write_whole
 
 from .contact import Contact
-from .linear_solids import SolidContact
 from .model import Surrogate
 from .network import Networks, from_arrays
-from .physics import SphereContact
-from .punch_physics import PunchContact
-from .short_range import ShortRangeContact
 from .trust import Trust
 
 _FOLDER = Path(__file__).parent
@@ -41,8 +38,12 @@ FILES = {
     "short range": _FOLDER / "short_range.npz",
 }
 SHIPPED = FILES["sphere"]
-_CONTACTS: dict[str, type[Contact]] = {
-    each.name: each for each in (SphereContact, SolidContact, PunchContact, ShortRangeContact)
+# Module and class of each contact, imported on first use.
+_CONTACTS = {
+    "sphere": ("physics", "SphereContact"),
+    "solids": ("linear_solids", "SolidContact"),
+    "punch": ("punch_physics", "PunchContact"),
+    "short range": ("short_range", "ShortRangeContact"),
 }
 _FORM, _WORDS = "viscotack surrogate 4", "words.json"
 # Largest accepted file [bytes unpacked]; the largest one of the package has less than one
@@ -135,7 +136,8 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
             raise InputError(f"its format is {words['form']!r}, but this version reads {_FORM!r}")
         if words["sha256"] != checksum(arrays):
             raise InputError("the checksum of its arrays differs from the stored one")
-        contact = _CONTACTS[words["contact"]]
+        module, kind = _CONTACTS[words["contact"]]
+        contact: type[Contact] = getattr(import_module(f".{module}", __package__), kind)
         names = dict.fromkeys(key.partition(".")[0] for key in arrays if ".weight." in key)
         networks = {name: from_arrays(arrays, f"{name}.") for name in names}
         trust = None

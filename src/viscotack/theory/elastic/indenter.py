@@ -25,7 +25,6 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.model.geometry import Body, HalfSpace, Layer, Shape
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
-from viscotack.theory.elastic import on_body, on_layer
 from viscotack.theory.elastic.profiles import angles, half_space_depth, mean_slope
 
 _HALF_SPACE = HalfSpace()
@@ -335,4 +334,10 @@ def _checked(contact_radius: Values, contact_modulus: float, work_of_adhesion: f
 
 def _on(body: Body) -> Any:
     """Return the module with the solution for a body."""
-    return on_layer if isinstance(body, Layer) else on_body
+    if isinstance(body, Layer):
+        from viscotack.theory.elastic import on_layer
+
+        return on_layer
+    from viscotack.theory.elastic import on_body
+
+    return on_body

@@ -14,7 +14,7 @@ from viscotack.files.text import write_table
 from viscotack.files.whole import Target
 from viscotack.model.problem.changes import Changes, changes_of
 from viscotack.model.problem.kinds import plain_heading
-from viscotack.prediction import predict
+from viscotack.prediction.predict import predict
 from viscotack.prediction.prediction import prediction_summary
 from viscotack.prediction.table import (
     METHOD,
