@@ -8,7 +8,7 @@ import pytest
 from stated import numbers
 from viscotack.model.geometry import Cone, Disc, HalfSpace, Layer, PowerLawProfile, Sphere
 from viscotack.model.materials import Elastic, StandardSolid
-from viscotack.model.problem import Groups, Problem, revolution
+from viscotack.model.problem import Groups, Problem
 from viscotack.model.protocol import (
     Apart,
     Approach,
@@ -23,7 +23,7 @@ from viscotack.model.traction import LennardJones
 from viscotack.prediction.advice import advise
 from viscotack.simulate import solve
 from viscotack.theory import jkr, profiles
-from viscotack.theory.elastic import on_layer
+from viscotack.theory.elastic import indenter, on_layer
 from viscotack.theory.elastic.relaxed import ends
 
 SOLID = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
@@ -135,7 +135,7 @@ def test_a_disc_is_pressed_to_half_its_radius_or_half_the_layer(by, fits, thickn
 @pytest.mark.parametrize(("by", "fits"), [(0.999, True), (1.001, False)])
 def test_a_cone_is_pressed_to_half_the_layer_however_flat_it_is(by, fits, monkeypatch):
     # that the depth is the slope times the radius saves the solution of the layer
-    monkeypatch.setattr(revolution.indenter, "bare_depth", lambda r, **_: 0.2 * r)
+    monkeypatch.setattr(indenter, "bare_depth", lambda r, **_: 0.2 * r)
     start = AtRadius(by * 0.5e-4 / 0.2)
     with nullcontext() if fits else pytest.raises(ValueError, match="0.5 thicknesses of the layer"):
         Problem(SOLID, LAW, CONE, Retraction(start=start, speed=1e-6), body=Layer(1e-4))
