@@ -3,7 +3,6 @@
 python -m research.grid spheres           # forces, works and processor time of 22 spheres
 python -m research.grid trust --seed 1    # stated errors of drawn spheres
 python -m research.grid rough --seed 1    # and of drawn rough maps
-python -m research.grid superposition     # asperities by themselves beside the grid
 python -m research.grid size              # time and memory by the number of pixels
 """
 
@@ -19,9 +18,9 @@ import viscotack as vt
 from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, HalfSpace, Layer
 from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, Retraction
-from viscotack.model.surfaces import roughness, self_affine, sphere
+from viscotack.model.surfaces import self_affine, sphere
 from viscotack.result.observables import work_of_separation
-from viscotack.simulate.rough import RoughProblem, pull, stickiness, superposed
+from viscotack.simulate.rough import RoughProblem, pull
 
 RADIUS, GAP = 5e-3, 1.5e-6
 ALONG = np.sqrt(RADIUS * GAP)
@@ -217,63 +216,6 @@ def rough(given):
     summed(inside)
 
 
-def of_asperities(rng, pixels):
-    """Return a drawn self-affine map and its test, for superposition."""
-    k = float(rng.choice([1, 0.3, 0.1]))
-    material = solid(k)
-    pixel = rng.uniform(4e-6, 10e-6)
-    law = vt.LennardJones(
-        work_of_adhesion=material.contact_modulus * GAP**2 * 0.75 / pixel / rng.uniform(2, 4),
-        equilibrium_gap=GAP,
-    )
-    surface = self_affine(
-        pixels,
-        pixel,
-        hurst=0.8,
-        rms_height=GAP * 10 ** rng.uniform(0, 1),
-        seed=int(rng.integers(1 << 30)),
-        roll_off=pixels * pixel / rng.choice([1, 2]),
-        shortest=pixel * rng.choice([10, 16, 24]),
-    )
-    full = law.strength * surface.area
-    preload = AtForce(full * 10 ** rng.uniform(-3, -1))
-    test = Retraction(start=preload, speed=10 ** rng.uniform(-6, -3))
-    return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
-
-
-def superposition(given):
-    """Compare superposition with the grid, by the share of the surface around contacts."""
-    rng = np.random.default_rng(given.seed)
-    print("k    speed   slope   U/dg  theta touching  share  force, grid  over grid CPU, grid s")
-    done = 0
-    while done < given.count:
-        try:
-            problem = of_asperities(rng, given.pixels)
-            began = process_time()
-            found = superposed(problem, force_outside=True)
-            spent = process_time() - began
-        except InputError as error:
-            print(f"refused: {error}"[:100], flush=True)
-            continue
-        began = process_time()
-        better = pull(problem, estimate_error=False, time_limit=given.limit)
-        grid = process_time() - began
-        if better.outcome is vt.Outcome.STOPPED:
-            print(better.status, flush=True)
-            continue
-        ratio = found.pull_off_force / better.pull_off_force
-        k, measures = problem.material.modulus_ratio, stickiness(problem)
-        slope = roughness(problem.surface).rms_slope
-        speed = problem.protocol.speed
-        done += 1
-        print(
-            f"{k:<4g} {speed:.1e} {slope:6.3f} {measures.full_contact:6.2f} "
-            f"{measures.fuller_tabor:6.2f} {found.touching:6d} {found.share:9.3f} "
-            f"{better.pull_off_force:11.3g} N {ratio:10.3f} {spent:8.1f} {grid:6.1f}",
-            flush=True,
-        )
-
-
 def size(given):
     """Show processor time and memory of one pull by the number of pixels."""
     print("pixels  CPU s  s per inner iteration  peak memory MB")
@@ -307,7 +249,7 @@ def of_size(side):
     return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
 
 
-PARTS = (spheres, trust, rough, superposition, size)
+PARTS = (spheres, trust, rough, size)
 
 
 def main():

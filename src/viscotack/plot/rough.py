@@ -10,9 +10,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
-from viscotack.simulate.rough.problem import RoughProblem
 from viscotack.simulate.rough.result import FieldMap, RoughResult
-from viscotack.simulate.rough.superposition import Superposition
 
 from .style import BLUE, ORANGE, drawing, label_in_si, said, style
 
@@ -90,39 +88,6 @@ def film_of_pull(found: RoughResult, target: Target, ending: str = ".gif") -> No
         except subprocess.CalledProcessError as error:
             raise InputError(f"ffmpeg did not write the film: {error.stderr}") from None
         write_whole(target, path.read_bytes())
-
-
-def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
-    """Draw the force by position of the plate, and the asperities on the map.
-
-    Parameters
-    ----------
-    problem : RoughProblem
-        The surface.
-    found : Superposition
-        Result of :func:`viscotack.simulate.rough.superposed`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Left the force, compression positive, right the heights with the summits.
-    """
-    surface, curve = problem.surface, found.curve
-    with drawing(10.0, 4.4) as figure:
-        left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
-        left.axhline(0, color="0.6", lw=0.8)
-        left.plot(curve.position, curve.force, color=BLUE)
-        label_in_si(left.xaxis, "position of the plate", "m")
-        label_in_si(left.yaxis, "force", "N")
-        left.set_title(f"pull-off force {said(found.pull_off_force, 'N')}")
-        rows, columns = surface.size
-        image = right.imshow(surface.heights, cmap="cividis", extent=(0, columns, rows, 0))
-        x, y = found.asperities.positions.T
-        right.plot(y, x, ".", color=ORANGE, ms=3)
-        right.grid(False)
-        right.set_title(f"{len(x)} asperities, {found.touching} in contact")
-        _label_map(right, figure.colorbar(image, ax=right), "height", "m")
-    return figure
 
 
 def _label_map(axes: "Axes", bar: "Colorbar", words: str, unit: str) -> None:

@@ -4,7 +4,6 @@ import os
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
-from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .options import binary_file, csv_file, file_name, option, picture, switch
@@ -22,8 +21,7 @@ class OfRough(Request):
     """Press a rough surface against a soft body and pull it off, by simulation on a grid.
 
     The surface is a map of heights from a file or generated. Force, contact area, energies and maps
-    of gap and pressure follow with error estimates. With --theory superposition each asperity is
-    pulled off by itself. docs/rough_surfaces.md describes the file and the theory.
+    of gap and pressure follow with error estimates. docs/rough_surfaces.md describes the file.
 
     Example: viscotack rough rough_rubber.toml --plot rough.png
     """
@@ -49,18 +47,13 @@ class OfRough(Request):
         default=...,
     )
     accuracy: Accuracy = DEFAULT_ACCURACY
-    theory: Literal["superposition"] | None = option(
-        "Answer by a theory instead of a simulation: the asperities by themselves."
-    )
     moments: int | None = option(
         "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
         "the largest tension.",
         ge=2,
         le=1000,
     )
-    anyway: bool = switch(
-        "Answer although a zone at an edge has less than one pixel, or asperities are neighbours."
-    )
+    anyway: bool = switch("Answer although a zone at an edge has less than one pixel.")
     device: Literal["cpu", "cuda"] = option(
         "Where to compute: cuda is a GPU, by CuPy, for maps from about 512 x 512 pixels.",
         default="cpu",
@@ -72,19 +65,13 @@ class OfRough(Request):
     )
 
     def answer(self, caller: Caller) -> Answer:
-        """Simulate the test, or pull each asperity off by itself, telling ``share``."""
-        from viscotack.simulate.rough import read_rough
+        """Simulate the test, telling ``share``."""
+        from viscotack.plot.rough import check_ffmpeg, draw_rough, film_of_pull
+        from viscotack.result import Outcome
+        from viscotack.simulate.rough import pull, read_rough, stickiness
 
         file = caller.file(self.file)
         problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
-        answer = self._superposed if self.theory is not None else self._simulated
-        return answer(problem, caller)
-
-    def _simulated(self, problem: Any, caller: Caller) -> Answer:
-        from viscotack.plot.rough import check_ffmpeg, draw_rough, film_of_pull
-        from viscotack.result import Outcome
-        from viscotack.simulate.rough import pull, stickiness
-
         if "movie" in caller.wants:
             check_ffmpeg()
         found = pull(
@@ -116,28 +103,6 @@ class OfRough(Request):
             pictures={"plot": lambda: draw_rough(found)},
             notes=(*problem.surface.notes, *found.warnings),
             status=1 if found.outcome is Outcome.STOPPED else 0,
-        )
-
-    def _superposed(self, problem: Any, caller: Caller) -> Answer:
-        from viscotack.plot.rough import draw_superposition
-        from viscotack.simulate.rough import superposed
-
-        if unknown := sorted(caller.wants & {"maps", "film", "movie"}):
-            raise InputError(
-                f"--{unknown[0]} needs the simulation; superposition has no fields, leave out "
-                "theory"
-            )
-        if self.checkpoint is not None or self.moments is not None:
-            raise InputError("checkpoint and moments belong to the simulation, not to theory")
-        found = superposed(
-            problem, accuracy=self.accuracy, force_outside=self.anyway, progress=caller.share
-        )
-        return Answer(
-            found,
-            data=lambda: found.summary,
-            files={"csv": rows_as_csv(found.rows())},
-            pictures={"plot": lambda: draw_superposition(problem, found)},
-            notes=(*problem.surface.notes, *((found.why,) if found.why else ())),
         )
 
 

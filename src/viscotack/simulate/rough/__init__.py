@@ -4,19 +4,16 @@ from .criteria import LONGEST_RANGE, Stickiness, stickiness
 from .problem import RoughProblem, Zone, problem_of, read_rough, read_rough_case
 from .pulling import pull
 from .result import RoughResult
-from .superposition import Superposition, superposed
 
 __all__ = [
     "LONGEST_RANGE",
     "RoughProblem",
     "RoughResult",
     "Stickiness",
-    "Superposition",
     "Zone",
     "problem_of",
     "pull",
     "read_rough",
     "read_rough_case",
     "stickiness",
-    "superposed",
 ]
