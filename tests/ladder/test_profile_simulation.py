@@ -7,7 +7,7 @@ from scipy.integrate import quad
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
 from viscotack.simulate import Settings
-from viscotack.simulate.contacts.profile import ProfileContact
+from viscotack.simulate.contacts.sphere import ProfileContact
 from viscotack.theory import profiles
 
 pytestmark = pytest.mark.march

@@ -9,8 +9,8 @@ from viscotack.model.geometry import Sphere
 from viscotack.model.materials import Elastic
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
+from viscotack.simulate.crack_contact.by_crack import too_short
 from viscotack.simulate.crack_contact.crack_problem import ROOT
-from viscotack.simulate.handover import too_short
 from viscotack.units import readable
 
 from .cautions import LINEAR_SPEED, beyond_linear

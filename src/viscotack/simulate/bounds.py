@@ -31,8 +31,7 @@ from viscotack.model.traction import ages, effective_range
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.contacts.punch import PunchContact
 from viscotack.simulate.equilibrium import descend
-from viscotack.simulate.legs import lasting
-from viscotack.simulate.machine import Hold, Leg
+from viscotack.simulate.machine import Hold, Leg, lasting
 
 # Range of the magnitudes of a test; their squares and cubes must not overflow.
 _SMALLEST, _LARGEST = 1e-100, 1e100

@@ -17,8 +17,19 @@ from viscotack.simulate.body import Trial
 from viscotack.simulate.history import Snapshot
 from viscotack.simulate.memory import Step, step
 from viscotack.simulate.mesh import Mesh
-from viscotack.simulate.state import MarchState, Run, around_edge, lost
-from viscotack.simulate.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
+from viscotack.simulate.steps import (
+    Attempt,
+    MarchState,
+    Run,
+    around_edge,
+    arrived,
+    force_change,
+    instant,
+    lost,
+    travel,
+    tried,
+    weighed,
+)
 
 # Maximum number of iterations from the end of a branch to the next stable state.
 _PATIENCE = 500

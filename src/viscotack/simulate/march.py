@@ -5,7 +5,7 @@ a step and shortens it until it is accepted. Steps are taken in the frame of the
 the edge travels (:mod:`.travelling`), otherwise in the frame of the solid (:mod:`.steps`). If even
 the shortest step fails, the solver treats it as a jump (:mod:`.jumps`). After each step the solver
 checks whether the leg or the whole run has ended, and whether the fine nodes must follow the edge
-(:mod:`.state`). Module :mod:`.history` defines the recorded quantities.
+(:mod:`.steps`). Module :mod:`.history` defines the recorded quantities.
 """
 
 from __future__ import annotations
@@ -29,8 +29,18 @@ from viscotack.simulate.machine import Leg
 from viscotack.simulate.memory import step
 from viscotack.simulate.mesh import Grading, Mesh
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.state import MarchState, Run, opening
-from viscotack.simulate.steps import arrived, clipped, is_shortest, over, shortened, tried, weighed
+from viscotack.simulate.steps import (
+    MarchState,
+    Run,
+    arrived,
+    clipped,
+    is_shortest,
+    opening,
+    over,
+    shortened,
+    tried,
+    weighed,
+)
 from viscotack.simulate.travelling import ahead, travelled
 
 # Absolute tolerance within which a target depth, force or edge counts as reached, in its unit.

@@ -28,17 +28,14 @@ from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
 from viscotack.simulate.bounds import check_bounds, check_clock, check_held
 from viscotack.simulate.contacts.contact import Contact, Relaxed
-from viscotack.simulate.contacts.disc import DiscContact
-from viscotack.simulate.contacts.profile import ProfileContact
 from viscotack.simulate.contacts.punch import PunchContact
-from viscotack.simulate.contacts.shape import ShapeContact
-from viscotack.simulate.contacts.sphere import SphereContact
+from viscotack.simulate.contacts.shape import DiscContact, ShapeContact
+from viscotack.simulate.contacts.sphere import ProfileContact, SphereContact
 from viscotack.simulate.estimate import COARSER, estimated
 from viscotack.simulate.growth import finer
 from viscotack.simulate.history import History, Snapshot
 from viscotack.simulate.interface import resolved
-from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
-from viscotack.simulate.machine import Leg
+from viscotack.simulate.machine import Leg, legs_of, longest_time, reached, spring_travel
 from viscotack.simulate.march import march
 from viscotack.simulate.mesh import Grading
 from viscotack.simulate.preload import shallower

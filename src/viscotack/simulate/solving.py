@@ -1,10 +1,15 @@
-"""Choice of the method for a problem: simulation or the steady-crack contact model."""
+"""Choice of the method for a problem: simulation or the steady-crack contact model.
+
+**Use of the steady-crack contact model when the adhesion range is too short to simulate.**
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
 from time import perf_counter
+
+import numpy as np
 
 from viscotack.cards import card_of
 from viscotack.clock import limited
@@ -13,7 +18,11 @@ from viscotack.model.problem import Case, Groups, Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.model.protocol import AtDepth, AtForce
 from viscotack.result import Outcome, Result
-from viscotack.simulate import handover
+from viscotack.simulate.crack_contact.by_crack import (
+    METHOD,
+    crack_contact,
+    too_short,
+)
 from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
 from viscotack.simulate.sensitivities import changed_inputs, sensitivities_of
 from viscotack.simulate.settings import Settings
@@ -153,7 +162,7 @@ def solve(
                     "derivatives exist for simulations only, and the range-corrected Tabor number "
                     f"of {groups.effective_tabor:.4g} is too large to simulate"
                 )
-            return handover.answered(problem, chosen.accuracy)
+            return _by_cracks(problem, chosen.accuracy)
         wanted = None if isinstance(sensitivities, bool) else sensitivities
         changes = {} if sensitivities is False else changed_inputs(problem, wanted)
         share = 1 / (1 + 2 * len(changes))
@@ -198,7 +207,7 @@ def has_start(problem: Case) -> bool:
     with one_blas_thread():
         try:
             groups = problem.groups()
-            if handover.too_short(groups):
+            if too_short(groups):
                 start_of(groups, profile_of(groups.geometry))
             else:
                 begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
@@ -209,7 +218,7 @@ def has_start(problem: Case) -> bool:
 
 def _too_short(groups: Groups, settings: Settings) -> bool:
     """Whether the range of the forces is too short for a simulation or for its round-off."""
-    if handover.too_short(groups):
+    if too_short(groups):
         return True
     if not_covered(groups) or groups.effective_tabor < _FINE_TABOR:
         return False
@@ -218,3 +227,33 @@ def _too_short(groups: Groups, settings: Settings) -> bool:
         return spacing < _DIGITS * start_of(groups, profile_of(groups.geometry))[1]
     except InputError:  # no such contact by JKR, whose range of contacts is a little smaller
         return False
+
+
+def _by_cracks(problem: Problem | Groups, accuracy: float) -> Result:
+    """Convert the result of :func:`crack_contact` to a :class:`viscotack.Result`.
+
+    Energies are not available; the error of the force is the band.
+    """
+    began = perf_counter()
+    found = crack_contact(problem)
+    outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT
+    if not np.any(found.contact_radius > 0):
+        outcome = Outcome.NEVER
+    groups, radius = problem.groups(), found.contact_radius
+    return Result(
+        problem=problem,
+        time=found.time,
+        depth=found.depth,
+        force=found.force,
+        contact_radius=np.where(radius > 0, radius, np.nan),
+        edge_speed=np.where(radius > 0, found.edge_speed, np.nan),
+        status=(
+            f"{outcome}; the range of the forces, a Tabor number of {groups.effective_tabor:.4g}, "
+            "is too short to simulate: computed with the steady-crack contact model"
+        ),
+        statistics={"steps": found.time.size - 1, "wall_time_s": perf_counter() - began},
+        accuracy=accuracy,
+        error_estimate=None if found.pull_off_force is None else {"force": found.band},
+        move=found.move,
+        method=METHOD,
+    )

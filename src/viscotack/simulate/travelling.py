@@ -32,8 +32,16 @@ from viscotack.simulate.interface import least_gap, room
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.memory import Memory, step
 from viscotack.simulate.mesh import Mesh
-from viscotack.simulate.state import MarchState, Run, around_edge, lost, opening
-from viscotack.simulate.steps import Attempt, changed, entered
+from viscotack.simulate.steps import (
+    Attempt,
+    MarchState,
+    Run,
+    around_edge,
+    changed,
+    entered,
+    lost,
+    opening,
+)
 from viscotack.simulate.surface import Surface
 
 # Smallest expected travel, as a fraction of the zone, for a step in this frame.

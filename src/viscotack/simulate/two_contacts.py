@@ -31,10 +31,11 @@ from viscotack.simulate.machine import Leg
 from viscotack.simulate.march import Part, Units, begun_run, narrowed
 from viscotack.simulate.memory import step
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.state import MarchState, Run
 from viscotack.simulate.steps import (
     UNBALANCED_CUT,
     Attempt,
+    MarchState,
+    Run,
     arrived,
     clipped,
     cut,

@@ -22,9 +22,9 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.model.protocol import AtForce, Retraction
-from viscotack.simulate import handover
 from viscotack.simulate.bounds import check_bounds
 from viscotack.simulate.contacts.contact import Contact, Relaxed
+from viscotack.simulate.crack_contact.by_crack import too_short
 from viscotack.simulate.history import History
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.march import Part, Units
@@ -160,7 +160,7 @@ def posed_contact(problem: Problem, settings: Settings) -> PosedContact:
         If the range of its forces is too short for a simulation.
     """
     groups, si = problem.groups(), problem.scales()
-    if handover.too_short(groups):
+    if too_short(groups):
         raise OutOfRange(
             f"the range-corrected Tabor number of the contact of {problem.geometry} is "
             f"{groups.effective_tabor:.4g}, too large to simulate"

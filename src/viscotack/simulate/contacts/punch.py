@@ -21,7 +21,7 @@ from viscotack.model.geometry.hats import hat_areas, panel_areas
 from viscotack.model.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.contacts.contact import Relaxed
-from viscotack.simulate.contacts.search import depth_where
+from viscotack.simulate.contacts.revolution import depth_where
 from viscotack.simulate.equilibrium import check_open, descend
 from viscotack.simulate.interface import interface
 from viscotack.simulate.machine import Hold

@@ -32,6 +32,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Sphere
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.accuracy import outside
+from viscotack.model.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.model.protocol import Apart, Approach, Dwell, LoadTo, Retract
 from viscotack.model.traction import LennardJones, grows
 from viscotack.result.curve import shares
@@ -43,6 +44,7 @@ from viscotack.simulate.crack_contact.crack_problem import (
     ROOT,
     drives_of,
     groups_of,
+    not_covered,
     start_of,
 )
 from viscotack.theory import SteadyCrack, lennard_jones
@@ -408,6 +410,14 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
         except InputError as error:
             answers.append(error)
     return answers
+
+
+def too_short(groups: Groups) -> bool:
+    """Whether the model replaces the simulation because the range of the forces is too short."""
+    if not_covered(groups):
+        return False
+    least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
+    return least < groups.effective_tabor <= LARGEST_TABOR
 
 
 def _check_tabor(groups: Groups) -> None:

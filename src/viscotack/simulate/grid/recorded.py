@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 from viscotack.simulate.grid.body import GridState
 from viscotack.simulate.grid.plane import on_host
 from viscotack.simulate.history import Snapshot
-from viscotack.simulate.state import MarchState, Run
+from viscotack.simulate.steps import MarchState, Run
 
 # Without types, which SciPy states for several libraries of arrays.
 _label: Any = ndimage.label
