@@ -82,7 +82,7 @@ def valley(monkeypatch):
 
     def made(lowest, kind, steps=5):
         force = 3 * (x[:steps] - 2.8) ** 2 - 8
-        monkeypatch.setattr(opening, "_valley_of", lambda *_: (np.arange(steps), lowest))
+        monkeypatch.setattr(opening, "_valley_of", lambda *_: (np.arange(steps), lowest, -8.0))
         monkeypatch.setattr(opening, "move_numbers", lambda _: np.zeros(steps, dtype=int))
         monkeypatch.setattr(opening, "moves_of", lambda _: [kind])
         return SimpleNamespace(depth=-x[:steps], force=force)

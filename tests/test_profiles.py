@@ -160,9 +160,6 @@ def test_both_edges_of_a_ring_are_reported():
     # the lowest place is between them
     lowest = RADII[np.argmin([ring(r) for r in RADII])] / np.pi ** (1 / 3)
     assert np.all((inner > 0) & (inner < lowest) & (lowest < outer))
-    answer = vt.summary(ring_result)
-    assert answer["most_rings"] == answer["rings_at_pull_off"] == 1
-    assert 0.5 < answer["inner_radius_at_pull_off"] < answer["contact_radius_at_pull_off"]
     # it opens from inside as well as from outside
     after = ring_result.move[touching] == 1
     assert inner[after][-1] > 1.1 * inner[after][0]
@@ -174,6 +171,5 @@ def test_parts_of_a_contact_that_comes_together_are_counted():
         return r * r / 2 + 0.8 * np.exp(-(((r - 1) / 0.25) ** 2))
 
     result = approached(groove, 8.0, RELAXING)
-    assert vt.summary(result)["most_rings"] == 2
-    assert result.rings is not None and result.rings[-1] == 1
+    assert result.rings is not None and result.rings.max() == 2 and result.rings[-1] == 1
     assert result.energy_residual is not None and result.energy_residual < 5e-3

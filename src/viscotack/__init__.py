@@ -103,12 +103,12 @@ if TYPE_CHECKING:
     from viscotack.result import save as save
     from viscotack.result import write_csv as write_csv
     from viscotack.result.cycles import Cycle as Cycle
+    from viscotack.result.cycles import Loop as Loop
     from viscotack.result.cycles import cycles as cycles
     from viscotack.result.cycles import time_to_detachment as time_to_detachment
     from viscotack.result.cycles import write_cycles as write_cycles
     from viscotack.result.edge_energy import EdgeEnergy as EdgeEnergy
     from viscotack.result.edge_energy import edge_energy as edge_energy
-    from viscotack.result.loops import Loop as Loop
     from viscotack.result.observables import Observable as Observable
     from viscotack.result.observables import PullOff as PullOff
     from viscotack.result.observables import (
@@ -171,9 +171,8 @@ _NAMES = {
         "contact_radius_at_pull_off crack_speed_at_pull_off work_to_pull_off work_of_separation "
         "pull_off_stress ligament_at_pull_off effective_surface_energy summary"
     ),
-    "result.cycles": "Cycle cycles time_to_detachment write_cycles",
+    "result.cycles": "Cycle Loop cycles time_to_detachment write_cycles",
     "result.edge_energy": "EdgeEnergy edge_energy",
-    "result.loops": "Loop",
     "prediction.advice": "advise Advice",
     "prediction.closed_forms": "Estimate",
     "prediction.predict": "predict",

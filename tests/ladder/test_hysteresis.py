@@ -9,8 +9,7 @@ from dimensionless import ELASTIC, SOLID, punch
 from dimensionless import sphere as of_solid
 from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
 from viscotack.result import load, save
-from viscotack.result.cycles import cycle_rows, cycles
-from viscotack.result.loops import Loop
+from viscotack.result.cycles import Loop, cycle_rows, cycles
 from viscotack.result.observables import work_to_pull_off
 from viscotack.simulate import solve
 from viscotack.simulate.crack_contact import crack_contact

@@ -1,17 +1,101 @@
-"""Cycles of a test: snap-in, peak compression, pull-off, work and hysteresis of each."""
+r"""Cycles of a test: snap-in, peak compression, pull-off, work and hysteresis of each.
 
+**Hysteresis.** The work at the indenter over a closed loop,
+
+.. math:: H = \oint F \, d\delta = \Delta W - \Delta U_K,
+
+is the work of the drive minus the change of the energy in the machine's spring. If a cycle
+begins and ends with the surfaces apart, they still attract each other across a finite gap, and the
+change of that energy is not dissipated,
+
+.. math:: H = \Delta W - \Delta U_K - \Delta U_I.
+
+Elastic energy left in the modes of the solid dissipates later and counts as lost.
+"""
+
+from contextlib import suppress
 from dataclasses import dataclass
+from enum import StrEnum
+from math import nan
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.text import write_table
 from viscotack.files.whole import Target
+from viscotack.result import Outcome, Result
+from viscotack.result.opening import PullOff, pull_off_in, tension_work
+from viscotack.result.parts import Span, move_numbers, moves_of, spans, touches, waits
 
-from . import Outcome, Result
-from .loops import Loop, loop_of, lost_in
-from .opening import PullOff, pull_off_in, tension_work
-from .parts import Span, move_numbers, moves_of, spans, waits
+# Tolerance for the return of depth and force, relative to their range, or the accuracy of the run
+# if that is larger.
+_RETURNED = 1e-3
+# Tolerance for the return of the energy in the contact, relative to the hysteresis.
+_SMALL = 0.02
+
+
+class Loop(StrEnum):
+    """State in which the loop of a cycle closed, see :func:`.cycles.cycles`."""
+
+    APART = "apart"
+    """The surfaces are apart at its beginning and at its end."""
+    CLOSED = "closed"
+    """Depth and force return; for a viscoelastic solid also the energy stored in the contact."""
+    DEPTH = "closed in depth only"
+    """The depth returns, but the force or the stored energy does not, or is unknown."""
+    OPEN = "open"
+    """None of these: the hysteresis is undefined."""
+
+
+def loop_of(result: Result, span: Span) -> Loop:
+    """Return the state in which the loop of a cycle closed."""
+    ends = [span.first, span.last]
+    if not (span.closes and span.opens):
+        return Loop.OPEN
+    if touches(result, span) and not np.isfinite(result.contact_radius[ends]).any():
+        return Loop.APART
+    within = max(_RETURNED, result.accuracy or 0.0)
+    if not returned(result.depth[span.states], within):
+        return Loop.OPEN
+    closed = returned(result.force[span.states], within) and _energy_returned(result, span)
+    return Loop.CLOSED if closed else Loop.DEPTH
+
+
+def lost_in(result: Result, span: Span, loop: Loop) -> float:
+    """Return the hysteresis of a cycle with a given loop state [unit of work]; nan if open."""
+    if loop is Loop.OPEN:
+        return float("nan")
+    energy = result.energy
+    if energy is None:  # a contact whose edge is a steady crack has no forces across a gap
+        return work_at_indenter(result.depth[span.states], result.force[span.states])
+    indenter = energy.drive - energy.spring
+    work = float(indenter[span.last] - indenter[span.first])
+    if loop is Loop.APART:
+        return work - float(energy.interface[span.last] - energy.interface[span.first])
+    return work
+
+
+def work_at_indenter(depth: npt.NDArray, force: npt.NDArray) -> float:
+    """Integrate the force over the depth along a history."""
+    return float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(depth)))
+
+
+def returned(values: npt.NDArray, within: float = _RETURNED) -> bool:
+    """Return whether a series ends at its first value, within a fraction of its range."""
+    return bool(abs(values[-1] - values[0]) <= within * np.ptp(values))
+
+
+def _energy_returned(result: Result, span: Span) -> bool:
+    """Return whether the energy stored in the contact returns; always true for elastic solids."""
+    if result.groups.modulus_ratio >= 1:
+        return True
+    energy = result.energy
+    if energy is None:
+        return False
+    stored = energy.elastic + energy.interface
+    left = float(stored[span.last] - stored[span.first])
+    return abs(left) <= _SMALL * abs(lost_in(result, span, Loop.CLOSED))
 
 
 @dataclass(frozen=True)
@@ -98,10 +182,38 @@ def cycles(result: Result) -> tuple[Cycle, ...]:
     """
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no cycles: {result.status}")
-    found = spans(result)
-    errors = result.hysteresis_errors or (float("nan"),) * len(found)
-    ends = zip(found, pull_offs(result), errors, strict=True)
-    return tuple(_cycle(result, span, at, error) for span, at, error in ends)
+    found, parts = [], spans(result)
+    errors = result.hysteresis_errors or (nan,) * len(parts)
+    energy = result.problem.outputs.energy_factor(result.groups)
+    for span, at, error in zip(parts, pull_offs(result), errors, strict=True):
+        # snap-in: the first state with an edge in the closing part
+        edge = np.isfinite(result.contact_radius[span.closing])
+        made = span.first + 1 + np.flatnonzero(edge[1:] & ~edge[:-1])
+        after = result.force[made[0] : span.turn + 1] if made.size else None
+        held = nan
+        if span.last == len(result.time) - 1:  # a run ends when a held contact detaches
+            with suppress(ValueError):
+                held = time_held(result)
+        loop = loop_of(result, span)
+        found.append(
+            Cycle(
+                begin=float(result.time[span.first]),
+                end=float(result.time[span.last]),
+                snap_in_depth=nan if after is None else float(result.depth[made[0]]),
+                snap_in_force=nan if after is None else max(-float(after.min()), 0.0),
+                peak_force=max(float(result.force[span.states].max()), 0.0),
+                pull_off_force=nan if at is None else at.force,
+                depth_at_pull_off=nan if at is None else at.depth,
+                work_to_pull_off=(
+                    nan if at is None else energy * tension_work(result, span, at, until=-at.depth)
+                ),
+                hysteresis=energy * lost_in(result, span, loop),
+                hysteresis_error=error,
+                loop=loop,
+                time_to_detachment=held,
+            )
+        )
+    return tuple(found)
 
 
 def pull_offs(result: Result) -> list[PullOff | None]:
@@ -119,15 +231,15 @@ def cycle_rows(result: Result) -> list[dict[str, float | str | None]]:
     """Return the cycles as rows with the names and units of the geometry, and in SI if possible.
 
     Names and signs are those of :mod:`viscotack.model.problem.outputs`; undefined numbers are None.
-    `loop` is one of the values of :class:`.loops.Loop`.
+    `loop` is one of the values of :class:`.cycles.Loop`.
     """
     outputs, scales = result.problem.outputs.cycles, result.scales
     rows = []
     for number, cycle in enumerate(cycles(result), 1):
-        values = {
-            name: _known(getattr(cycle, output.source) * output.factor(result.groups))
-            for name, output in outputs.items()
-        }
+        values: dict[str, float | None] = {}
+        for name, output in outputs.items():
+            value = getattr(cycle, output.source) * output.factor(result.groups)
+            values[name] = float(value) if np.isfinite(value) else None
         row: dict[str, float | str | None] = {"cycle": number, **values, "loop": str(cycle.loop)}
         if scales is not None:
             for name, output in outputs.items():
@@ -169,54 +281,6 @@ def write_cycles(result: Result, path: Target) -> None:
     """
     rows = cycle_rows(result)
     write_table({name: [row[name] for row in rows] for name in rows[0]}, path)
-
-
-def _known(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
-
-
-def _cycle(result: Result, span: Span, found: PullOff | None, error: float) -> Cycle:
-    depth, tension = _snap_in(result, span)
-    none, loop = float("nan"), loop_of(result, span)
-    energy = result.problem.outputs.energy_factor(result.groups)
-    return Cycle(
-        begin=float(result.time[span.first]),
-        end=float(result.time[span.last]),
-        snap_in_depth=depth,
-        snap_in_force=tension,
-        peak_force=max(float(result.force[span.first : span.last + 1].max()), 0.0),
-        pull_off_force=none if found is None else found.force,
-        depth_at_pull_off=none if found is None else found.depth,
-        work_to_pull_off=(
-            none
-            if found is None
-            else energy * tension_work(result, span, found, until=-found.depth)
-        ),
-        hysteresis=energy * lost_in(result, span, loop),
-        hysteresis_error=error,
-        loop=loop,
-        time_to_detachment=_time_held(result, span),
-    )
-
-
-def _snap_in(result: Result, span: Span) -> tuple[float, float]:
-    """Return the depth at snap-in in the closing part, and the tension after it."""
-    edge = np.isfinite(result.contact_radius[span.closing])
-    made = np.flatnonzero(edge[1:] & ~edge[:-1])
-    if not made.size:
-        return float("nan"), float("nan")
-    at = int(made[0]) + 1
-    force = result.force[span.closing]
-    return float(result.depth[span.closing][at]), max(-float(force[at:].min()), 0.0)
-
-
-def _time_held(result: Result, span: Span) -> float:
-    if span.last < len(result.time) - 1:
-        return float("nan")  # a run ends when a held contact detaches
-    try:
-        return time_held(result)
-    except ValueError:
-        return float("nan")
 
 
 # For results without recorded moves: the hold begins where the force is within this fraction of the

@@ -18,13 +18,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import least_squares
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.geometry import HalfSpace, Sphere
-from viscotack.model.problem import Groups, Problem
 from viscotack.model.protocol import Apart
 from viscotack.model.traction import at_rest, grows
 from viscotack.theory import SteadyCrack
@@ -100,29 +98,6 @@ def edge_energy(result: Result) -> EdgeEnergy:
     >>> f"{found.amplification[-1]:.1f} of the edge, {found.bulk[-1]:.1f} by the steady crack"
     '7.3 of the edge, 7.1 by the steady crack'
     """
-    groups = _checked(result)
-    crack = SteadyCrack(groups.material, groups.traction)
-    rest = SteadyCrack(groups.material, at_rest(groups.traction))
-    a, P = result.contact_radius * _ROOT, result.force * _LOAD
-    with np.errstate(invalid="ignore"):
-        energy = (2 * a**2 / 3 - P / (2 * a)) ** 2 / (2 * np.pi * a)
-        steady = _steady(result, a, rest.zone_length / groups.tabor**2) & (energy > 1)
-    if np.count_nonzero(steady) < _FEWEST:
-        raise InputError(
-            "the edge was hardly ever a steady opening crack, because it travelled too few zone "
-            "lengths; start deeper, retract faster, or use forces of shorter range"
-        )
-    speed, gamma = result.edge_speed[steady], energy[steady]
-    bulk = np.asarray(rest.amplification(speed * groups.tabor**2 * groups.material.time_unit))
-    v0, n = _gent_schultz(speed, gamma)
-    scales: Any = result.scales
-    strain = None if scales is None else _strain(result, crack, speed, steady)
-    unit = 1.0 if scales is None else scales.edge_speed
-    said = _words(gamma[-1], bulk[-1], strain, grows(groups.traction))
-    return EdgeEnergy(speed * unit, gamma, bulk, gamma / bulk, v0 * unit, n, strain, said)
-
-
-def _checked(result: Result) -> Groups:
     groups = result.groups
     if not isinstance(groups.geometry, Sphere) or not isinstance(groups.body, HalfSpace):
         raise InputError(
@@ -136,15 +111,47 @@ def _checked(result: Result) -> Groups:
         )
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed, so there are no energies: {result.status}")
-    return groups
-
-
-def _steady(result: Result, a: Array, zone: float) -> npt.NDArray[np.bool_]:
-    """Return a mask of the steps at which the edge is a steady opening crack."""
-    lowest = int(np.argmin(result.force))
-    gone = a[0] - a > _ZONES * zone
-    near = (np.arange(a.size) <= lowest) | (a > _BEYOND * a[lowest])
-    return gone & near & (result.edge_speed > 0) & (result.force < 0)
+    rest = SteadyCrack(groups.material, at_rest(groups.traction))
+    a, P = result.contact_radius * _ROOT, result.force * _LOAD
+    with np.errstate(invalid="ignore"):
+        energy = (2 * a**2 / 3 - P / (2 * a)) ** 2 / (2 * np.pi * a)
+        # where the edge is a steady opening crack
+        lowest = int(np.argmin(result.force))
+        steady = (energy > 1) & (result.edge_speed > 0) & (result.force < 0)
+        steady &= a[0] - a > _ZONES * rest.zone_length / groups.tabor**2
+        steady &= (np.arange(a.size) <= lowest) | (a > _BEYOND * a[lowest])
+    if np.count_nonzero(steady) < _FEWEST:
+        raise InputError(
+            "the edge was hardly ever a steady opening crack, because it travelled too few zone "
+            "lengths; start deeper, retract faster, or use forces of shorter range"
+        )
+    speed, gamma = result.edge_speed[steady], energy[steady]
+    to_crack = groups.tabor**2 * groups.material.time_unit
+    bulk = np.asarray(rest.amplification(speed * to_crack))
+    words = [
+        f"the energy of the edge is up to {gamma[-1]:.3g} works of adhesion; the bulk accounts for "
+        f"{bulk[-1]:.3g}"
+    ]
+    if grows(groups.traction):
+        words.append(f"the interface contributes a factor of {gamma[-1] / bulk[-1]:.3g}")
+    v0, n = _gent_schultz(speed, gamma)
+    scales: Any = result.scales
+    strain, unit = None, 1.0
+    if scales is not None:
+        # gap over length at pull-off; h0 is over the length E0* h0^2/dg of the crack
+        at = int(np.argmin(result.force[steady]))
+        found = SteadyCrack(groups.material, groups.traction).at(float(speed[at]) * to_crack)
+        problem: Any = result.problem
+        slopes, law = np.diff(found.gap) / np.diff(found.position), problem.traction
+        h0 = law.equilibrium_gap
+        strain = law.work_of_adhesion / (problem.material.contact_modulus * h0) * np.max(slopes)
+        strain, unit = float(strain), scales.edge_speed
+        if strain > _LARGEST_STRAIN:
+            words.append(
+                f"the slope of the surface at the edge is {strain:.2g}: above {_LARGEST_STRAIN:g} "
+                "a linear solid is doubtful"
+            )
+    return EdgeEnergy(speed * unit, gamma, bulk, gamma / bulk, v0 * unit, n, strain, tuple(words))
 
 
 def _gent_schultz(speed: Array, gamma: Array) -> tuple[float, float]:
@@ -157,30 +164,3 @@ def _gent_schultz(speed: Array, gamma: Array) -> tuple[float, float]:
 
     found = least_squares(misfit, [middle, 0.4], bounds=([-np.inf, 0.01], [np.inf, 3.0]))
     return float(np.exp(found.x[0])), float(found.x[1])
-
-
-def _strain(result: Result, crack: SteadyCrack, speed: Array, steady: npt.NDArray) -> float:
-    """Return the largest slope of the surface at pull-off: gap over length, in SI."""
-    groups, problem = result.groups, result.problem
-    assert isinstance(problem, Problem)
-    at = int(np.argmin(result.force[steady]))
-    found = crack.at(float(speed[at]) * groups.tabor**2 * groups.material.time_unit)
-    law = problem.traction
-    # h0 over the length E0* h0^2/dg
-    unit = law.work_of_adhesion / (problem.material.contact_modulus * law.equilibrium_gap)
-    return unit * float(np.max(np.diff(found.gap) / np.diff(found.position)))
-
-
-def _words(gamma: float, bulk: float, strain: float | None, grown: bool) -> tuple[str, ...]:
-    said = [
-        f"the energy of the edge is up to {gamma:.3g} works of adhesion; the bulk accounts for "
-        f"{bulk:.3g}"
-    ]
-    if grown:
-        said.append(f"the interface contributes a factor of {gamma / bulk:.3g}")
-    if strain is not None and strain > _LARGEST_STRAIN:
-        said.append(
-            f"the slope of the surface at the edge is {strain:.2g}: above {_LARGEST_STRAIN:g} a "
-            "linear solid is doubtful"
-        )
-    return tuple(said)

@@ -238,29 +238,6 @@ def contact_radius_at_pull_off(result: Result) -> float:
     return pull_off(result).contact_radius
 
 
-def inner_radius_at_pull_off(result: Result) -> float:
-    """Return the inner edge of the outermost part of the contact at the force minimum.
-
-    0 where that is a disc around the axis [(pi R^2 Delta-gamma_0/E_0*)^(1/3)].
-
-    Raises
-    ------
-    InputError
-        If the shape has a single edge.
-    """
-    return float(_parts(result, "inner_radius")[_step_at(result, pull_off(result))])
-
-
-def rings_at_pull_off(result: Result) -> float:
-    """Return how many parts the contact has at the force minimum; each is a ring, or a disc."""
-    return float(_parts(result, "rings")[_step_at(result, pull_off(result))])
-
-
-def most_rings(result: Result) -> float:
-    """Return how many parts the contact had at most, each a ring or a disc at the axis."""
-    return float(np.max(_parts(result, "rings")))
-
-
 def crack_speed_at_pull_off(result: Result) -> float:
     """Return the speed of the receding edge at the force minimum, positive.
 
@@ -655,9 +632,6 @@ _OBSERVABLES: dict[str, Callable[[Result], float]] = (
             depth_at_pull_off,
             pull_off_stress,
             contact_radius_at_pull_off,
-            inner_radius_at_pull_off,
-            rings_at_pull_off,
-            most_rings,
             ligament_at_pull_off,
             crack_speed_at_pull_off,
             effective_surface_energy,
@@ -699,19 +673,6 @@ def _punch(result: Result) -> Any:
             "this observable is defined for a punch, but the result belongs to another indenter"
         )
     return groups
-
-
-def _parts(result: Result, name: str) -> Any:
-    """Return a series of the parts of a contact."""
-    series = getattr(result, name)
-    if series is None:
-        raise InputError(f"a {result.problem.geometry.word} has one edge, its contact radius")
-    return series
-
-
-def _step_at(result: Result, found: PullOff) -> int:
-    """Return the last step before a state, or at it."""
-    return max(int(np.searchsorted(result.time, found.time, side="right")) - 1, 0)
 
 
 def _given(result: Result, work: float) -> float:

@@ -6,6 +6,7 @@ crossing are located between steps, and a jump adds no work.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +16,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.protocol import Dwell, LoadTo
 
-from . import Event, Outcome, Result
+from . import Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits
 
 # Tolerance for equal step lengths.
@@ -53,13 +54,21 @@ class PullOff:
     crack_speed: float
 
 
+class _Valley(NamedTuple):
+    """Steps of a piece, the index of the lowest one of a valley, and its force."""
+
+    steps: npt.NDArray[np.intp]
+    lowest: int
+    force: float
+
+
 @dataclass(frozen=True, eq=False)
 class _Piece:
     """Steps over which the depth decreases without interruption.
 
     A smallest force at its end is a minimum if the contact `snaps` there; one at its beginning if
     it `starts` there: with the test itself, after dwells at the relaxed start, or after a jump that
-    left some contact. It is not a minimum where the machine reverses or stops.
+    left some contact. It is not a minimum where the machine reverses or stops, or `held` the force.
     """
 
     steps: npt.NDArray[np.intp]
@@ -67,11 +76,15 @@ class _Piece:
     snaps: bool
     held: bool
 
-    def has_minimum(self, lowest: int) -> bool:
-        """Return whether the contact's force minimum can be at one of its steps."""
+    def valley(self, force: Array, lowest: int) -> _Valley | None:
+        """Return the valley of the force at one of the steps; None if there can be none in tension.
+
+        `force` is that of the whole run.
+        """
         begins, ends = lowest == 0, lowest == len(self.steps) - 1
-        free = not self.held
-        return free and (self.starts or not begins) and (self.snaps or not ends)
+        free = not self.held and (self.starts or not begins) and (self.snaps or not ends)
+        least = float(force[self.steps[lowest]])
+        return _Valley(self.steps, lowest, least) if free and least < 0 else None
 
 
 def pull_off_in(result: Result, span: Span) -> PullOff:
@@ -83,7 +96,7 @@ def pull_off_in(result: Result, span: Span) -> PullOff:
         If there is none: there is no tension, or the force was lowest where the machine reversed
         or stopped, or was set by the machine.
     """
-    return _located(result, *_valley_of(result, span))
+    return _located(result, _valley_of(result, span))
 
 
 def peaks_in(result: Result, span: Span) -> tuple[PullOff, ...]:
@@ -97,11 +110,21 @@ def peaks_in(result: Result, span: Span) -> tuple[PullOff, ...]:
     ValueError
         If the surfaces were never in contact.
     """
-    return tuple(_located(result, *valley) for valley in _valleys(result, span))
+    found: list[_Valley] = []
+    for piece in _pieces(result, span):
+        for lowest in _minima(result.force[piece.steps]):
+            valley = piece.valley(result.force, lowest)
+            if valley is None:
+                continue
+            if found and not _apart(result, found[-1], valley):
+                valley = min(found.pop(), valley, key=lambda each: each.force)
+            found.append(valley)
+    return tuple(_located(result, valley) for valley in found)
 
 
-def _located(result: Result, steps: npt.NDArray[np.intp], lowest: int) -> PullOff:
+def _located(result: Result, valley: _Valley) -> PullOff:
     """Return the state at a force minimum, between the steps around the lowest one of a piece."""
+    steps, lowest, _ = valley
     # The motion is an uninterrupted retraction, so the travel (minus the depth) orders the steps.
     x = -result.depth[steps]
     smooth = _smooth(move_numbers(result)[steps], lowest)
@@ -129,7 +152,7 @@ def lost_beside(result: Result, span: Span) -> float:
     An error of the slope of the force, relative to the smallest force, times this number is the
     error of the work, because the minimum shifts by slope over curvature.
     """
-    steps, i = _valley_of(result, span)
+    steps, i, _ = _valley_of(result, span)
     x, force = -result.depth[steps], result.force[steps]
     if not 0 < i < len(x) - 1 or _smooth(move_numbers(result)[steps], i) is None:
         return 0.0
@@ -143,7 +166,7 @@ def between_steps(result: Result, span: Span) -> float:
     three steps and of the cubics through one more on either side. They differ where the curve bends
     within a step, as at the end of a table of a law; 0 unless the minimum is a smooth valley.
     """
-    steps, lowest = _valley_of(result, span)
+    steps, lowest, _ = _valley_of(result, span)
     smooth = _smooth(move_numbers(result)[steps], lowest)
     if smooth is None:
         return 0.0
@@ -169,7 +192,7 @@ def reach_of_fold(result: Result, span: Span) -> float:
     The result holds for :math:`\epsilon = 1`, with the curvature of the last three steps; it is 0
     if the contact does not detach under such a load.
     """
-    steps, i = _valley_of(result, span)
+    steps, i, _ = _valley_of(result, span)
     moves, number = moves_of(result), move_numbers(result)
     if i < 2 or i < len(steps) - 1 or not isinstance(moves[number[steps[i]]], LoadTo):
         return 0.0
@@ -196,64 +219,38 @@ def _smooth(moves: npt.NDArray[np.intp], lowest: int) -> slice | None:
     return slice(max(first - 1, 0), last + 1)
 
 
-# Steps of a piece, and the index of the lowest one of a valley.
-_Valley = tuple[npt.NDArray[np.intp], int]
-
-
 def _valley_of(result: Result, span: Span) -> _Valley:
     """Return the lowest valley of the force in the opening part of a cycle.
 
     A piece that is lowest at its end without a minimum has none, because the force decreases
     further.
     """
-    found, pieces = None, _opening(result, span)
-    for piece in pieces:
-        lowest = int(np.argmin(result.force[piece.steps]))
-        if _is_valley(result, piece, lowest):
-            valley = piece.steps, lowest
-            found = valley if found is None else _lower(result, found, valley)
-    if found is None:
-        raise InputError(_why_none(result, span, pieces))
-    return found
-
-
-def _valleys(result: Result, span: Span) -> list[_Valley]:
-    """Return all valleys of the force in tension, in order of time."""
-    found: list[_Valley] = []
-    for piece in _opening(result, span):
-        for lowest in _minima(result.force[piece.steps]):
-            if not _is_valley(result, piece, lowest):
-                continue
-            valley = piece.steps, lowest
-            if found and not _apart(result, found[-1], valley):
-                valley = _lower(result, found.pop(), valley)
-            found.append(valley)
-    return found
-
-
-def _opening(result: Result, span: Span) -> list[_Piece]:
-    if not touches(result, span):
-        raise InputError("the surfaces were never in contact, so there is no pull-off")
-    return _pieces(result, span)
-
-
-def _is_valley(result: Result, piece: _Piece, lowest: int) -> bool:
-    return _force_of(result, (piece.steps, lowest)) < 0 and piece.has_minimum(lowest)
-
-
-def _lower(result: Result, one: _Valley, other: _Valley) -> _Valley:
-    return other if _force_of(result, other) < _force_of(result, one) else one
-
-
-def _force_of(result: Result, valley: _Valley) -> float:
-    steps, lowest = valley
-    return float(result.force[steps[lowest]])
+    pieces, force = _pieces(result, span), result.force
+    valleys = (piece.valley(force, int(np.argmin(force[piece.steps]))) for piece in pieces)
+    if found := [valley for valley in valleys if valley is not None]:
+        return min(found, key=lambda valley: valley.force)
+    steps = np.arange(span.turn, span.last + 1)
+    ended = f"the run ended: {result.status}"
+    if not span.opens:
+        raise InputError(f"the test has no retraction, so there is no pull-off; {ended}")
+    if not np.any(force[steps] < 0):
+        raise InputError(f"the force is nowhere tensile, so there is no pull-off; {ended}")
+    if any(piece.held for piece in pieces):
+        raise InputError("the machine held the force, so there is no pull-off force")
+    if steps[int(np.argmin(force[steps]))] == len(force) - 1:
+        raise InputError(
+            f"the force still decreases at the end of the run ({result.status}), so the pull-off "
+            "is not reached; run further"
+        )
+    raise InputError(
+        f"the force was smallest where the machine reversed or stopped, not at a pull-off; {ended}"
+    )
 
 
 def _apart(result: Result, one: _Valley, other: _Valley) -> bool:
     """Return whether the force rises enough between two valleys to separate them."""
-    first, last = one[0][one[1]], other[0][other[1]]
-    higher = max(_force_of(result, one), _force_of(result, other))
+    first, last = one.steps[one.lowest], other.steps[other.lowest]
+    higher = max(one.force, other.force)
     top = min(float(result.force[first : last + 1].max()), 0.0)
     return top - higher > _RISEN * (abs(higher) + 1)
 
@@ -277,31 +274,17 @@ def _minima(force: Array) -> list[int]:
     return found if rising else [*found, low]
 
 
-def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:
-    steps = np.arange(span.turn, span.last + 1)
-    ended = f"the run ended: {result.status}"
-    if not span.opens:
-        return f"the test has no retraction, so there is no pull-off; {ended}"
-    if not np.any(result.force[steps] < 0):
-        return f"the force is nowhere tensile, so there is no pull-off; {ended}"
-    if any(p.held for p in pieces):
-        return "the machine held the force, so there is no pull-off force"
-    lowest = steps[int(np.argmin(result.force[steps]))]
-    if lowest == len(result.force) - 1:
-        return (
-            f"the force still decreases at the end of the run ({result.status}), so the pull-off "
-            "is not reached; run further"
-        )
-    return (
-        f"the force was smallest where the machine reversed or stopped, not at a pull-off; {ended}"
-    )
-
-
 def tension_work(result: Result, span: Span, found: PullOff, *, until: float) -> float:
     """Integrate -force over the travel in tension around the pull-off."""
     work, tension = 0.0, True
+    # the curve has a kink where the speed changes: a move begins at the last step of the previous
+    # one
+    parts, number = [], move_numbers(result)
+    for piece in _pieces(result, span):
+        ends = np.flatnonzero(np.diff(number[piece.steps])) + 1
+        begins = [0, *np.maximum(ends - 1, 0)]
+        parts += [piece.steps[i:j] for i, j in zip(begins, [*ends, None], strict=True)]
     # Go backwards from the end to find the last zero crossing before the minimum.
-    parts = [part for piece in _pieces(result, span) for part in _moves_of(result, piece.steps)]
     for steps in reversed(parts):
         if len(steps) < 2:
             continue  # a single step between two jumps has no work
@@ -325,22 +308,13 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
     return work
 
 
-def _moves_of(result: Result, steps: npt.NDArray[np.intp]) -> list[npt.NDArray[np.intp]]:
-    """Split the steps of a piece by moves, because the curve has a kink where the speed changes.
-
-    A move begins at the last step of the previous one.
-    """
-    ends = np.flatnonzero(np.diff(move_numbers(result)[steps])) + 1
-    begins = np.maximum(ends - 1, 0)
-    cuts = zip([0, *begins], [*ends, len(steps)], strict=True)
-    return [steps[begin:end] for begin, end in cuts]
-
-
 def _pieces(result: Result, span: Span) -> list[_Piece]:
     """Split the opening part of a cycle into runs of steps between jumps, stops and reversals."""
-    part = np.arange(span.turn, span.last + 1)
-    depth = result.depth
-    first = span.turn + int(np.flatnonzero(depth[part] == depth[part].max())[-1])
+    if not touches(result, span):
+        raise InputError("the surfaces were never in contact, so there is no pull-off")
+    time, depth = result.time, result.depth
+    part = depth[span.turn : span.last + 1]
+    first = span.turn + int(np.flatnonzero(part == part.max())[-1])
     moves, number = moves_of(result), move_numbers(result)
     waiting = np.array([waits(move) for move in moves])[number]
     # For each step but the last: whether a break, a jump or a new move follows.
@@ -348,7 +322,11 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
     jumped = np.zeros(len(broken), dtype=bool)
     for event in result.events:
         if event.kind.startswith("jump"):
-            jumped |= _jump(result, event)
+            # Several steps may have the time of a jump to the last digit; the depth identifies the
+            # step after it. A jump on the way to a later stored step has its own time.
+            reached = (time[1:] == event.time) & (depth[1:] == event.depth)
+            on_the_way = (time[:-1] < event.time) & (event.time <= time[1:])
+            jumped |= reached if reached.any() else on_the_way
     # motion of the drive at constant time is a jump as well
     goes_on = np.append(np.diff(depth)[1:] < 0, False) & ~waiting[1:]
     jumped |= (np.diff(depth) == 0) & goes_on
@@ -372,17 +350,6 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
             begin = end + (not bends)
             starts = bool(jumped[end]) and bool(np.isfinite(result.contact_radius[begin]))
     return pieces
-
-
-def _jump(result: Result, event: Event) -> npt.NDArray[np.bool_]:
-    """Return a mask of the steps after which an event occurs.
-
-    Several steps may have the time of a jump to the last digit; the depth identifies the step after
-    it. A jump on the way to a later stored step has its own time.
-    """
-    time, depth = result.time, result.depth
-    reached = (time[1:] == event.time) & (depth[1:] == event.depth)
-    return reached if reached.any() else (time[:-1] < event.time) & (event.time <= time[1:])
 
 
 def _nearest(x: Array, i: int) -> slice:
@@ -411,20 +378,9 @@ def _lowest(x: Array, y: Array, i: int, points: slice) -> Iterator[tuple[float, 
     scale = x[i + 1] - x[i - 1]
     u = (x[points] - x[i]) / scale
     taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
-    at = _valley(*taylor[1:])
+    at = _lowest_of(*taylor[1:])
     if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
         yield float(x[i] + scale * at), float(np.polynomial.polynomial.polyval(at, taylor))
-
-
-def _on_plateau(y: Array, i: int) -> bool:
-    """Return whether three steps in a row, the lowest point i among them, have the same force.
-
-    An interface that yields everywhere at its strength has such a plateau.
-    """
-    return any(
-        np.ptp(y[first : first + 3]) <= _EVEN * abs(y[i])
-        for first in range(max(i - 2, 0), min(i, len(y) - 3) + 1)
-    )
 
 
 def least_between(x: Array, y: Array, i: int, place: float) -> float:
@@ -434,7 +390,9 @@ def least_between(x: Array, y: Array, i: int, place: float) -> float:
     after the lowest step, a parabola or a cubic would be far below that line. A plateau is lowest
     at its steps; a cubic through its corner would be below it.
     """
-    if _on_plateau(y, i):
+    # three steps in a row with the same force, as of an interface that yields at its strength
+    rows = range(max(i - 2, 0), min(i, len(y) - 3) + 1)
+    if any(np.ptp(y[row : row + 3]) <= _EVEN * abs(y[i]) for row in rows):
         return float(y[i] - _EVEN * abs(y[i]))
     last = i if place > x[i] else i - 1
     if last < 1:
@@ -443,7 +401,7 @@ def least_between(x: Array, y: Array, i: int, place: float) -> float:
     return float(y[last] + slope * (place - x[last]) - _ROUGH * abs(y[i]))
 
 
-def _valley(c: float, b: float, a: float = 0.0) -> float:
+def _lowest_of(c: float, b: float, a: float = 0.0) -> float:
     """Return the minimum of c u + b u^2 + a u^3 without cancellation for small a, or nan."""
     root = b * b - 3 * a * c
     if root < 0 or (a == 0 and b <= 0):

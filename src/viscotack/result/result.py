@@ -15,6 +15,7 @@ of separation.
 import io
 import json
 import os
+import re
 import zipfile
 import zlib
 from collections.abc import Iterable, Mapping
@@ -34,7 +35,6 @@ from viscotack.files.whole import Target, write_whole
 from viscotack.model.problem import Case, Groups, Problem, PunchScales, Scales
 from viscotack.model.problem.record import from_dict, to_dict
 from viscotack.model.tables import UnknownNoun
-from viscotack.units import finite
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1
 # Errors of NumPy, zlib and json for truncated, changed or foreign files.
@@ -100,10 +100,6 @@ class Event:
     force: float
     energy: float
 
-    def __post_init__(self) -> None:
-        for name in ("time", "depth", "force", "energy"):
-            object.__setattr__(self, name, finite(f"{name} of an event", getattr(self, name), "1"))
-
 
 @dataclass(frozen=True)
 class ShallowStart:
@@ -127,10 +123,6 @@ class ShallowStart:
     force: float
     work: float
     shift: float
-
-    def __post_init__(self) -> None:
-        for name in ("asked", "depth", "force", "work", "shift"):
-            object.__setattr__(self, name, finite(f"{name} of a start", getattr(self, name), "1"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -606,9 +598,10 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     >>> bool((again.force == result.force).all())
     True
     """
+    names = re.compile("|".join(["header", *_SERIES, *_OPTIONAL, "(energy|fields)/.+"]))
     try:
         with open(path, "rb") as file:
-            arrays = read_arrays(file, _is_expected)
+            arrays = read_arrays(file, lambda name: bool(names.fullmatch(name)))
         header = json.loads(str(arrays.pop("header")))
         if header["format"] != _FORMAT:
             raise InputError("its header is not that of a viscotack result")
@@ -626,14 +619,6 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
         ) from error
     raise InputError(
         f"{os.fspath(path)} was written by viscotack {writer} in a newer format; update viscotack"
-    )
-
-
-def _is_expected(name: str) -> bool:
-    """Return whether a saved result may contain an array of this name."""
-    group, _, rest = name.partition("/")
-    return name in ("header", *_SERIES, *_OPTIONAL) or (
-        group in ("energy", "fields") and bool(rest)
     )
 
 

@@ -15,8 +15,7 @@ import numpy as np
 
 from viscotack.clock import TimeUp
 from viscotack.result import Outcome, Result
-from viscotack.result.cycles import time_held
-from viscotack.result.loops import Loop, loop_of, lost_in
+from viscotack.result.cycles import Loop, loop_of, lost_in, time_held
 from viscotack.result.observables import PullOff, equal_peak, peaks, pull_off, work_to
 from viscotack.result.opening import between_steps, lost_beside, reach_of_fold
 from viscotack.result.parts import Span, move_numbers, moves_of, spans, waits

@@ -179,12 +179,6 @@ DETAILED = replace(
         "inner_radius": Series("inner_radius", "inner radius", _RADIUS),
         "rings": Series("rings", "rings", _PURE),
     },
-    observables={
-        **REVOLUTION.observables,
-        "inner_radius_at_pull_off": Output("inner radius there", _RADIUS),
-        "rings_at_pull_off": Output("rings there", _PURE),
-        "most_rings": Output("most rings", _PURE),
-    },
 )
 
 

@@ -36,7 +36,7 @@ from viscotack.model.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.model.protocol import Apart, Approach, Dwell, LoadTo, Retract
 from viscotack.model.traction import LennardJones, grows
 from viscotack.result.curve import shares
-from viscotack.result.loops import Loop, returned, work_at_indenter
+from viscotack.result.cycles import Loop, returned, work_at_indenter
 from viscotack.result.opening import least_between
 from viscotack.result.parts import Span, all_moves, spans_of, waits
 from viscotack.simulate.crack_contact.crack_problem import (
