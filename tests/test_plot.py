@@ -45,7 +45,7 @@ def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
 def test_axes_of_a_regime_map_have_units_of_their_size():
     from viscotack.plot.design import draw_regimes
     from viscotack.theory.punch import Frictionless, Pad
-    from viscotack.theory.punch.map import regime_map
+    from viscotack.theory.punch.unloading import regime_map
 
     solid = standard_solid(0.75e6, 7.5e6, 1e-3, 0.5)
     held = {"contact_modulus": 1e6, "work_of_adhesion": 0.05, "strength": 5e4}

@@ -12,7 +12,7 @@ from dimensionless import last_slope, standard
 from reference_data import reference
 from viscotack.theory import greenwood, punch
 from viscotack.theory.crack.law import THEORIES
-from viscotack.theory.punch import Pad, crossover, curve, rate, unloading
+from viscotack.theory.punch import Pad, crossover, curve, unloading
 
 MODULI = dict(rubbery_modulus=1e6, glassy_modulus=2e7, poisson_ratio=0.5)
 SLS = vt.StandardSolid(**MODULI, tau0=1e-2)
@@ -37,10 +37,10 @@ def test_size_takes_the_place_of_the_glassy_end(theory, material):
     # at the same passage of the zone: (1/Gamma - k)/(1 - k) is the same for all limits
     k, largest, law = material.modulus_ratio, 4.0, PAD.crack_law(theory, material=material)
     whole = np.array([1.2, 3.0, 9.0])
-    speed = rate.crack_speed(whole, law, largest=np.inf)
+    speed = unloading.crack_speed(whole, law, largest=np.inf)
     part = (1 / whole - k) / (1 - k)
     limited = 1 / (1 / largest + (1 - 1 / largest) * part)
-    found = rate.amplification(speed * limited / whole, law, largest=largest)
+    found = unloading.amplification(speed * limited / whole, law, largest=largest)
     np.testing.assert_allclose(found, limited, rtol=1e-11)
 
 
@@ -49,12 +49,12 @@ def test_size_takes_the_place_of_the_glassy_end(theory, material):
 def test_amplification_ends_at_the_smaller_limit_and_is_the_strength_below_b0(theory, material):
     limits = np.array([0.3, 1.0, 5.0, 20.0, 500.0, np.inf])
     law = PAD.crack_law(theory, material=material)
-    fast = rate.amplification(1e60, law, largest=limits)
+    fast = unloading.amplification(1e60, law, largest=limits)
     np.testing.assert_allclose(fast, np.minimum(limits, 20.0), rtol=1e-9)
-    slow = rate.amplification(0.0, law, largest=limits)
+    slow = unloading.amplification(0.0, law, largest=limits)
     np.testing.assert_array_equal(slow, [0.3, 1, 1, 1, 1, 1])
     # the limit joins b0 without a jump, whatever the speed
-    near = rate.amplification(1.0, law, largest=[1 - 1e-9, 1 + 1e-9])
+    near = unloading.amplification(1.0, law, largest=[1 - 1e-9, 1 + 1e-9])
     assert near[0] == pytest.approx(near[1], abs=3e-9)
 
 
@@ -63,12 +63,14 @@ def test_amplification_ends_at_the_smaller_limit_and_is_the_strength_below_b0(th
 def test_crack_speed_is_the_inverse_of_the_amplification(theory, material):
     law, limits = PAD.crack_law(theory, material=material), [3.0, 8.0, np.inf]
     gamma = np.array([1.5, 7.0, 12.0])
-    speed = rate.crack_speed(gamma, law, largest=limits)
-    np.testing.assert_allclose(rate.amplification(speed, law, largest=limits), gamma, rtol=1e-11)
-    assert rate.crack_speed(1.0, law, largest=3.0) == 0
+    speed = unloading.crack_speed(gamma, law, largest=limits)
+    np.testing.assert_allclose(
+        unloading.amplification(speed, law, largest=limits), gamma, rtol=1e-11
+    )
+    assert unloading.crack_speed(1.0, law, largest=3.0) == 0
     for impossible, limit in ((law, 1.4), (replace(law, material=RUBBER), limits)):
         with pytest.raises(ValueError, match="below the limits of size and material"):
-            rate.crack_speed(1.5, impossible, largest=limit)
+            unloading.crack_speed(1.5, impossible, largest=limit)
 
 
 # What a curve says ----------------------------------------------------------------------------
@@ -120,7 +122,7 @@ def test_motion_is_that_of_the_edges_by_their_energy(part, base, tolerance, spee
     grid = 1 + (limit - 1) * part
     crack = CubicSpline(
         np.log(part / (1 - part)),
-        np.log(rate.crack_speed(grid, LAW, largest=largest) / (speed * a)),
+        np.log(unloading.crack_speed(grid, LAW, largest=largest) / (speed * a)),
     )
 
     def motion(depth, state):
@@ -216,10 +218,10 @@ def test_amplification_gives_the_verified_value(row):
     pad = Pad(**unit(inputs["Sigma0"]), half_width=1e9, base=FREE)
     largest = np.inf
     if "b/a0" in inputs:
-        largest = rate.largest_amplification(inputs["b/a0"] * pad.fracture_length, pad)
+        largest = unloading.largest_amplification(inputs["b/a0"] * pad.fracture_length, pad)
     theory = "persson-brener" if row["equation"].startswith("App") else "greenwood"
     law = pad.crack_law(theory, material=standard(inputs["k"]))
-    found = rate.amplification(inputs["Vc_tau/h0"], law, largest=largest)
+    found = unloading.amplification(inputs["Vc_tau/h0"], law, largest=largest)
     assert found == pytest.approx(row["value"], rel=1e-11, abs=0)
 
 
@@ -228,7 +230,7 @@ def test_persson_brener_of_the_appendix_gives_the_verified_value(row):
     inputs, pad = row["inputs"], Pad(**unit(0.05), half_width=1e9, base=FREE)
     law = pad.crack_law("persson-brener", material=standard(inputs["k"]))
     x = inputs["x=beta*Vhat=2 pi v tau/l0"]
-    found = rate.amplification(x * pad.fracture_length / (2 * np.pi), law, largest=np.inf)
+    found = unloading.amplification(x * pad.fracture_length / (2 * np.pi), law, largest=np.inf)
     assert found == pytest.approx(row["value"], rel=1e-11, abs=0)
 
 
@@ -239,7 +241,7 @@ def test_lengths_and_limits_give_the_verified_value(row):
     a0 = punch.fracture_length(**case)
     if row["equation"] == "3.31":
         pad = Pad(half_width=inputs.get("a/a0", 64.85) * a0, **case, base=FREE)
-        found = rate.largest_amplification(inputs["b/a0"] * a0, pad)
+        found = unloading.largest_amplification(inputs["b/a0"] * a0, pad)
     elif row["equation"] == "3.34 kappa":
         found = greenwood.cohesive_zone_length(**case)
     else:

@@ -24,16 +24,16 @@ def rubber(exponent, modulus_ratio):
 def test_slow_cracks_dissipate_in_proportion_to_their_speed(exponent):
     v = np.array([1e-3, 1e-4])
     exact = theory.persson_brener.amplification(v, material=rubber(exponent, 0.1))
-    slow = theory.crack_regimes.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
+    slow = theory.persson_brener.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
     assert slow == pytest.approx(exact, rel=1e-5, abs=0)
     assert last_slope(v, exact - slow) == pytest.approx(3, abs=0.02)
 
 
 @pytest.mark.parametrize("exponent", [0.3, 0.6, 1.7])
 def test_the_steepest_slope_tends_to_that_of_the_intermediate_regime(exponent):
-    limit = theory.crack_regimes.intermediate_exponent(exponent)
+    limit = theory.persson_brener.intermediate_exponent(exponent)
     rest = [
-        limit - theory.crack_regimes.steepest(material=rubber(exponent, k)).exponent
+        limit - theory.persson_brener.steepest(material=rubber(exponent, k)).exponent
         for k in (1e-2, 1e-4, 1e-12)
     ]
     assert rest[0] > rest[1] > abs(rest[2])
@@ -42,16 +42,16 @@ def test_the_steepest_slope_tends_to_that_of_the_intermediate_regime(exponent):
 
 def test_the_power_law_of_the_intermediate_range_is_a_tangent():
     material = rubber(0.6, 0.1)
-    law = theory.crack_regimes.steepest(material=material)
+    law = theory.persson_brener.steepest(material=material)
     gamma = theory.persson_brener.amplification(law.speed, material=material)
     assert law.coefficient * law.speed**law.exponent == pytest.approx(gamma, rel=1e-12, abs=0)
-    found = theory.crack_regimes.local_exponent(
+    found = theory.persson_brener.local_exponent(
         law.speed * np.array([0.3, 1.0, 3.0]), material=material
     )
     assert found[1] == pytest.approx(law.exponent, rel=1e-9, abs=0)
     assert found[1] > found[0] and found[1] > found[2]
     with pytest.raises(ValueError, match="elastic"):
-        theory.crack_regimes.steepest(material=rubber(0.6, 1.0))
+        theory.persson_brener.steepest(material=rubber(0.6, 1.0))
 
 
 def test_local_exponent_is_the_integral_back_to_the_amplification():
@@ -59,7 +59,7 @@ def test_local_exponent_is_the_integral_back_to_the_amplification():
     low, high = np.log(1e-2), np.log(1e3)
     v = np.exp((low + high) / 2 + (high - low) / 2 * x)
     rise = (
-        np.sum(theory.crack_regimes.local_exponent(v, material=SOLID) * weights) * (high - low) / 2
+        np.sum(theory.persson_brener.local_exponent(v, material=SOLID) * weights) * (high - low) / 2
     )
     ends = np.log(theory.persson_brener.amplification(np.exp([low, high]), material=SOLID))
     assert rise == pytest.approx(ends[1] - ends[0], rel=1e-9, abs=0)

@@ -6,8 +6,8 @@ from scipy import sparse
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, Frictionless
+from viscotack.theory import punch
 from viscotack.theory.elastic import disc
-from viscotack.theory.punch import laws
 from viscotack.theory.punch.rectangle import bounds, film_stresses, on_layer
 
 BONDED = Bonded(poisson_ratio=0.45)
@@ -90,7 +90,7 @@ def test_contacts_that_open_cell_by_cell_lie_between_the_bounds(ratio):
 
 def test_on_a_thin_sliding_layer_every_plan_has_the_same_stress():
     low, high = on_layer(3e-4, half_width=1e-4, **SOLID, thickness=1e-6, base=Frictionless())
-    stress = laws.thin_layer_pull_off_stress(1e-6, **SOLID, base=Frictionless())
+    stress = punch.thin_layer_pull_off_stress(1e-6, **SOLID, base=Frictionless())
     assert low < high < 1.01 * low
     assert low == pytest.approx(12e-8 * stress, rel=0.01)
 

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import minimize_scalar
 
 import viscotack as vt
-from viscotack.theory import SteadyCrack, crack_regimes, persson_brener, rate
+from viscotack.theory import SteadyCrack, persson_brener, rate
 
 from ..bench import Bench, Numbers
 from .cases import (
@@ -73,7 +73,7 @@ def numbers_4_6(bench: Bench) -> Numbers:
     for n in (0.2, *EXPONENTS, STANDARD):
         found["theory"][f"{n:g}"] = by_theory(K, n, speed)
         if n != STANDARD:
-            law = crack_regimes.steepest(material=solid(K, n))
+            law = persson_brener.steepest(material=solid(K, n))
             found["tangent"][f"{n:g}"] = [float(law.coefficient), float(law.exponent)]
     for n in (*EXPONENTS, STANDARD):
         found["simulated"][f"{n:g}"] = simulated(bench.each, K, n, _RATES)

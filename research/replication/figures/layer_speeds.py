@@ -56,8 +56,8 @@ def by_theory(name: str) -> dict[str, Any]:
     speed = np.geomspace(1, 1e6, 61)
     law = PAD.crack_law(name, material=solid())
     energies = [
-        theory.rate.amplification(
-            speed / A0_OVER_H0, law, largest=theory.rate.largest_amplification(b, PAD)
+        theory.unloading.amplification(
+            speed / A0_OVER_H0, law, largest=theory.unloading.largest_amplification(b, PAD)
         )
         for b in FOUR
     ]

@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 
 import viscotack as vt
-from viscotack.theory import empirical, jkr, maugis, persson_brener, rate, transition
+from viscotack.theory import jkr, maugis, persson_brener, rate, transition
+from viscotack.theory.crack.law import gent_schultz
 
 from ..bench import Bench, Numbers
 from .cases import ALPHA, ALPHA_LJ, LENS, PDMS, PDMS_WORK, PRELOAD, RANGES, TABOR, curve, lens
@@ -132,7 +133,7 @@ def linear_theory(speed: Any, tip: float = TIP) -> dict[str, Any]:
 
 def measured(crack_speed: Any) -> Any:
     """Return the energy [dg0] of the printed fit to the measurements, Eq. 4.28."""
-    return np.asarray(empirical.gent_schultz(crack_speed, reference_speed=V0, exponent=XI))
+    return np.asarray(gent_schultz(crack_speed, reference_speed=V0, exponent=XI))
 
 
 def of_the_thesis() -> dict[str, Any]:

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import nnls
 
 import viscotack as vt
-from viscotack.theory import crack_regimes, persson_brener
+from viscotack.theory import persson_brener
 
 from ..bench import Bench, Numbers
 from .cases import PDMS, K, solid
@@ -122,7 +122,7 @@ def numbers_A_3(bench: Bench) -> Numbers:
         "q1_exact": np.pi * n * (1 - K),
         "q1_exact_small_k": np.pi * n,
         "m2_fitted_small_k": np.array(slopes),
-        "m2_limit": np.asarray(crack_regimes.intermediate_exponent(n)),
+        "m2_limit": np.asarray(persson_brener.intermediate_exponent(n)),
     }
 
 

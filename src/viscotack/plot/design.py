@@ -426,7 +426,7 @@ def draw_regimes(found: RegimeMap) -> "Figure":
     Parameters
     ----------
     found : RegimeMap
-        Result of :func:`viscotack.theory.punch.map.regime_map`.
+        Result of :func:`viscotack.theory.punch.unloading.regime_map`.
 
     Returns
     -------
@@ -436,7 +436,7 @@ def draw_regimes(found: RegimeMap) -> "Figure":
     --------
     >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
-    >>> from viscotack.theory.punch.map import regime_map
+    >>> from viscotack.theory.punch.unloading import regime_map
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     ... )

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from . import sphere as sphere
     from .crack import CrackLaw as CrackLaw
     from .crack import SteadyCrack as SteadyCrack
-    from .crack import crack_regimes as crack_regimes
-    from .crack import empirical as empirical
     from .crack import greenwood as greenwood
     from .crack import persson_brener as persson_brener
     from .crack import steady as steady
@@ -54,7 +52,7 @@ _ROOMS = {
         "adhesion_map bradley disc dmt film hertz indenter jkr lennard_jones maugis profiles "
         "transition wavy"
     ),
-    "crack": "crack_regimes empirical greenwood persson_brener steady tabulated_modulus",
+    "crack": "greenwood persson_brener steady tabulated_modulus",
     "sphere": "bounds detachment edge_law rate unloading",
     "punch": "",
 }

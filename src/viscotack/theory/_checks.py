@@ -1,4 +1,4 @@
-"""Validation of arguments shared by the theories."""
+"""Validation of arguments shared by the theories, and the scales of an adhesive sphere."""
 
 from __future__ import annotations
 
@@ -95,3 +95,18 @@ def ascending(places: npt.NDArray[np.float64], name: str, unit: str, remedy: str
 def plain(x: Any) -> Any:
     """Return a float for a scalar result and the array otherwise."""
     return float(x) if np.ndim(x) == 0 else x
+
+
+def contact_scales(
+    radius: Values, contact_modulus: Values, work_of_adhesion: Values
+) -> tuple[Any, Any, Any]:
+    r"""Return the scales of contact radius [m], depth [m] and force [N] of Eq. 4.16.
+
+    .. math:: (\pi R^2 \Delta\gamma_0 / E^*)^{1/3}, \quad
+              (\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}, \quad \pi R \Delta\gamma_0
+    """
+    R, E, w = positive(
+        radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+    )
+    ratio = np.cbrt(np.pi * w / (E * R))
+    return R * ratio, R * ratio**2, np.pi * R * w

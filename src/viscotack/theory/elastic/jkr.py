@@ -29,8 +29,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, Values, at_least, plain, positive
-from viscotack.theory._scales import contact_scales
+from viscotack.theory._checks import Number, Values, at_least, contact_scales, plain, positive
 
 from . import hertz
 

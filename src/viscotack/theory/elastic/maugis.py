@@ -27,9 +27,16 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.theory._checks import ROUND_OFF, Number, Values, at_least, plain, positive
+from viscotack.theory._checks import (
+    ROUND_OFF,
+    Number,
+    Values,
+    at_least,
+    contact_scales,
+    plain,
+    positive,
+)
 from viscotack.theory._roots import halved
-from viscotack.theory._scales import contact_scales
 from viscotack.theory.elastic import hertz
 
 

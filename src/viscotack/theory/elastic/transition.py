@@ -18,8 +18,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, Values, at_least, plain, positive
-from viscotack.theory._scales import contact_scales
+from viscotack.theory._checks import Number, Values, at_least, contact_scales, plain, positive
 
 
 def contact_radius(

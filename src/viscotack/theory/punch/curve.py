@@ -17,7 +17,7 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Base
 from viscotack.theory._checks import Number, Values, plain, positive
 
-from ._kernel import curve
+from .crossover import curve
 
 
 def surface_energy(

@@ -25,21 +25,37 @@ to 19 % high, 10 % high in the median, closest where the pad detaches at its str
 is accurate to 0.1 a; the depth to 25 % up to r = 1 h0/tau0, and not usable above 10 h0/tau0.
 
 Source: this package, after the thin layer of Maghami, PhD thesis (2025), chapter 3.
+
+**Flat punch on a viscoelastic layer: energy of the edge cracks, limited by the finite size.** The
+energy of a fast crack is :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` works of adhesion, on a
+half-space up to glassy over rubbery modulus, 1/k. On a layer the mean stress cannot exceed the
+strength of the interface, so :math:`\Gamma` is below :math:`(\pi/4) \, b/a_0`. The theories of
+Greenwood and of Persson and Brener are corrected by their glassy limit: the larger of k and the
+inverse of that limit, :math:`k_b`, replaces k, as in
+:meth:`viscotack.theory.crack.law.CrackLaw.limited` for any spectrum; for one retardation time this
+is Eq. 3.35 and, for Persson and Brener, Eq. 4 of appendix II. Below the thickness b0 the limit is
+below 1 and holds at every speed.
+
+Speeds are those of the crack [m/s], opening. The crack is that of the edges of a
+:class:`viscotack.theory.punch.pad.Pad`, by its method ``crack_law``.
+
+Source: Maghami, PhD thesis (2025), Eq. 3.31 to 3.35 and appendix II.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 import scipy
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, Values, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.crack import CrackLaw
-
-from . import crossover, rate
-from .pad import Pad
+from viscotack.theory.punch import crossover
+from viscotack.theory.punch.pad import REGIMES, Pad, Thicknesses, regime_thicknesses
 
 # Crack speeds of the grid, in r a/v0: slower ones do not shorten the ligament, and pull-off
 # occurs at (a_c/a)(v0/v)/(d ln S/d ln a_c), which is below 2 up to b = 5a.
@@ -251,4 +267,250 @@ def _motion(drive: Any, largest: float, law: CrackLaw) -> tuple[Any, Any]:
     """Return the crack speeds [m/s] of the drives r a/v0, and their amplifications."""
     low, high = np.log10([_SLOWEST * np.min(drive), _FASTEST * np.max(drive)])
     crack = np.logspace(low, high, round(_PER_DECADE * (high - low)) + 1)
-    return crack, np.asarray(rate.amplification(crack, law, largest=largest))
+    return crack, np.asarray(amplification(crack, law, largest=largest))
+
+
+def largest_amplification(thickness: Values, pad: Pad) -> Number:
+    r"""Return the effective over rubbery surface energy allowed by the size of the pad.
+
+    .. math:: \Gamma_{max} = \frac{\min(b, b_1)}{b_0}
+              = \frac\pi4 \frac{b}{\zeta a_0} \;(b < b_1), \quad \frac{a}{a_0} \;(b > b_1)
+
+    where the mean stress equals the strength (Eq. 3.31, which is for b < b1). The material gives
+    another limit, 1/k. Below 1 the pad detaches at its strength at any speed.
+
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is below 0.5.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch import Frictionless
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> f"{largest_amplification(1e-4, pad):.2f}"
+    '2.50'
+    """
+    b = positive(thickness=thickness)
+    b0, _, b1 = regime_thicknesses(pad, modulus_ratio=1.0)
+    return plain(np.minimum(b, b1) / b0)
+
+
+def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Number:
+    r"""Return effective over rubbery surface energy at a crack speed, corrected for finite size.
+
+    Parameters
+    ----------
+    crack_speed : array_like
+        Speed [m/s] at which each edge recedes, not negative.
+    law : CrackLaw
+        Crack law of the edges on a half-space.
+    largest : array_like
+        Limit by the size: :func:`largest_amplification`, or infinity for a half-space.
+
+    Raises
+    ------
+    InputError
+        If a speed is negative or not finite, or a limit is not positive.
+
+    Notes
+    -----
+    1e5 speeds take 0.1 s; every distinct ``largest`` below 1/k takes 1 to 5 ms.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.theory.punch import Frictionless, Pad
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> found = amplification(0.1, law, largest=[0.5, 2.5, np.inf])
+    >>> [f"{x:.3f}" for x in found]
+    ['0.500', '2.163', '3.891']
+    """
+    v, limit = np.broadcast_arrays(
+        at_least(0, "a crack that closes is another problem", crack_speed=crack_speed),
+        _positive_limit(largest),
+    )
+    # below b0 the strength limits the stress at every speed
+    found = np.array(np.minimum(limit, 1.0))
+    for limited, here in _limited(law, limit):
+        found[here] = limited.amplification(v[here])
+    return plain(found)
+
+
+def crack_speed(amplification: Values, law: CrackLaw, *, largest: Values) -> Number:
+    """Return the crack speed [m/s] at which an amplification is reached.
+
+    Parameters
+    ----------
+    amplification : array_like
+        Effective over rubbery surface energy, at least 1 and below both `largest` and glassy
+        over rubbery modulus.
+    law : CrackLaw
+        Crack law of the edges on a half-space.
+    largest : array_like
+        As for :func:`amplification`.
+
+    Raises
+    ------
+    InputError
+        If an amplification is not in its range, or a limit is not positive.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.theory.punch import Frictionless, Pad
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> f"{crack_speed(2.0, law, largest=2.5) * 1e3:.1f} mm/s"
+    '54.2 mm/s'
+    """
+    gamma, limit = np.broadcast_arrays(
+        at_least(
+            1,
+            "the energy of the slowest crack is the work of adhesion",
+            amplification=amplification,
+        ),
+        _positive_limit(largest),
+    )
+    most = np.minimum(limit, law.largest)
+    if np.any((gamma >= most) & (gamma > 1)):
+        raise InputError(
+            "amplification must be below the limits of size and material, which are reached at "
+            f"infinite speed: got {np.max(gamma):.6g}, limit {np.min(most):.6g}"
+        )
+    found = np.zeros(gamma.shape)
+    for limited, here in _limited(law, limit):
+        found[here] = limited.speed(gamma[here])
+    return plain(found)
+
+
+def _positive_limit(largest: Values) -> Any:
+    limit = np.asarray(largest, dtype=float)
+    if not np.all(limit > 0):
+        raise InputError(f"largest must be a positive amplification, got {np.min(limit)}")
+    return limit
+
+
+def _limited(law: CrackLaw, limit: Any) -> Iterator[tuple[CrackLaw, Any]]:
+    """Yield each limited law and its elements; nothing if the limit is 1 or below."""
+    ratios = np.maximum(1 / limit, law.material.modulus_ratio)
+    for ratio in np.unique(ratios[ratios < 1]):
+        yield law.limited(modulus_ratio=float(ratio)), ratios == ratio
+
+
+class RegimeMap(NamedTuple):
+    """Detachment of a pad over thickness (rows) and speed (columns), from :func:`regime_map`.
+
+    Attributes
+    ----------
+    thickness : ndarray, shape (N,)
+        Thickness of the layer [m].
+    speed : ndarray, shape (M,)
+        Retraction speed [m/s].
+    regime : ndarray of str, shape (N, M)
+        One of :data:`viscotack.theory.punch.pad.REGIMES`.
+    stress : ndarray, shape (N, M)
+        Mean pull-off stress [Pa].
+    crack_speed : ndarray, shape (N, M)
+        Speed of each edge at pull-off [m/s]; infinite if the whole contact opens simultaneously.
+    amplification : ndarray, shape (N, M)
+        Effective over rubbery surface energy at pull-off.
+    boundaries : Thicknesses
+        b0 of the slowest and of the fastest retraction, and b1 [m].
+    """
+
+    thickness: npt.NDArray[np.float64]
+    speed: npt.NDArray[np.float64]
+    regime: npt.NDArray[np.str_]
+    stress: npt.NDArray[np.float64]
+    crack_speed: npt.NDArray[np.float64]
+    amplification: npt.NDArray[np.float64]
+    boundaries: Thicknesses
+
+
+def regime_map(thickness: Values, speed: Values, pad: Pad, law: CrackLaw) -> RegimeMap:
+    """Compute the detachment regimes over thicknesses and retraction speeds.
+
+    Cohesive if the energy of the crack at pull-off on a half-space would exceed the limit of the
+    finite size; otherwise a thin layer below b1 and a half-plane above. A 40 by 40 map takes half a
+    second.
+
+    Parameters
+    ----------
+    thickness : array_like, shape (N,)
+        b [m], positive.
+    speed : array_like, shape (M,)
+        Retraction speed [m/s], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is at most 0.49.
+    law : CrackLaw
+        Crack law of the edges, :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite, or an axis is not one-dimensional.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.theory.punch import Frictionless, Pad
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> found = regime_map([1e-4, 2e-3], [1e-6, 1.0], pad, law)
+    >>> found.regime.tolist()
+    [['thin layer', 'cohesive'], ['half-plane', 'half-plane']]
+    """
+    b, r = (np.atleast_1d(x) for x in positive(thickness=thickness, speed=speed))
+    if b.ndim > 1 or r.ndim > 1:
+        raise InputError(
+            f"thickness and speed must be one-dimensional arrays, got shapes {b.shape} and "
+            f"{r.shape}"
+        )
+    state = pull_off(r, pad, law, thickness=b[:, None])
+    crack = np.asarray(state.crack_speed)
+    running = np.isfinite(crack)
+    unlimited = np.ones(crack.shape)
+    unlimited[running] = amplification(crack[running], law, largest=np.inf)
+    boundaries = regime_thicknesses(pad, modulus_ratio=law.material.modulus_ratio)
+    elastic = np.asarray(pad.elastic_stress(b))
+    cohesive = np.sqrt(unlimited) * elastic[:, None] >= pad.strength
+    thick = np.where(b > boundaries.half_plane, 2, 1)[:, None]
+    return RegimeMap(
+        thickness=b,
+        speed=r,
+        regime=np.array(REGIMES)[np.where(cohesive, 0, thick)],
+        stress=np.asarray(state.stress),
+        crack_speed=crack,
+        amplification=np.asarray(state.amplification),
+        boundaries=boundaries,
+    )

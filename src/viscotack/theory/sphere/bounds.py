@@ -18,8 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscotack.theory._checks import Number, Values, at_least, plain, ratio
-from viscotack.theory._scales import contact_scales
+from viscotack.theory._checks import Number, Values, at_least, contact_scales, plain, ratio
 from viscotack.theory.elastic import jkr, lennard_jones
 
 # Range of the fit of the threshold radius, in the units of the fit.

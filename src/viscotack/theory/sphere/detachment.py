@@ -43,9 +43,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, Values, plain, positive
+from viscotack.theory._checks import Number, Values, contact_scales, plain, positive
 from viscotack.theory._roots import regula_falsi
-from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
 

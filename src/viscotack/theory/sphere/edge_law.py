@@ -17,8 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.theory._checks import Number, Values, plain, positive
-from viscotack.theory._scales import contact_scales
+from viscotack.theory._checks import Number, Values, contact_scales, plain, positive
 from viscotack.theory.elastic import jkr
 
 # Number of steps in ln a, last radius over the scale of the contact, and number of steps within the

@@ -29,8 +29,7 @@ import warnings
 
 import numpy as np
 
-from viscotack.theory._checks import Number, Values, at_least, plain, positive
-from viscotack.theory._scales import contact_scales
+from viscotack.theory._checks import Number, Values, at_least, contact_scales, plain, positive
 
 COEFFICIENT, EXPONENT = 2.887, 1.171
 FITTED_TABOR = 3.24

@@ -34,8 +34,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.theory._checks import positive
-from viscotack.theory._scales import contact_scales
+from viscotack.theory._checks import contact_scales, positive
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
 
