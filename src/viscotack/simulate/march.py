@@ -52,39 +52,28 @@ _NOTICED = 1e-3
 _INSIDE = 0.95
 
 
-# not the scales of theory.crack.contact: it shares nothing with this, so that each judges the other
-@dataclass(frozen=True)
-class Units:
-    """SI values of the units of a contact: depth [m], force [N], time [s]."""
-
-    depth: float
-    force: float
-    time: float
-
-
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A contact with its relaxed start, in its own units."""
+    """A contact with its relaxed start, modes and grading, ready for a run.
+
+    The traction law of the contact is that at rest; `growing` is the law itself if its tension
+    grows with the opening speed or the time in contact, otherwise None.
+    """
 
     contact: Contact
     start: Relaxed
     modes: Modes
     grading: Grading
-    units: Units
     growing: Any = None
 
 
 def march(
-    contact: Contact,
-    start: Relaxed,
-    modes: Modes,
+    part: Part,
     legs: tuple[Leg, ...],
-    grading: Grading,
     settings: Settings,
     *,
     until: str,
     stiffness: float | None = None,
-    growing: Any = None,
     profiles: bool = False,
     progress: Callable[[float], None] | None = None,
     watch: Callable[[Snapshot], None] | None = None,
@@ -93,8 +82,7 @@ def march(
 
     `until` is "pull-off" (stop after the largest tension of the last leg, :func:`.steps.over`) or
     "detached" (stop when the surfaces have separated). `stiffness` is the spring stiffness of the
-    machine [output force/h0]. The traction law of the contact is that at rest; `growing` is the law
-    itself if its tension grows with the opening speed or the time in contact, otherwise None.
+    machine [output force/h0].
 
     The outcome is one of these words:
 
@@ -104,10 +92,8 @@ def march(
     - "lost": no equilibrium was found;
     - "unheld": no contact exists that can carry the dead load.
     """
-    history = History(SMALLEST_ENERGY * contact.span, stiffness)
-    body = Body(contact, modes, np.asarray(modes.weights), growing)
-    run = Run(body, settings, legs, profiles, history)
-    return through(run, first_place(run, start, grading), until, progress, watch)
+    run, at = begun_run(part, legs, settings, stiffness, profiles)
+    return through(run, at, until, progress, watch)
 
 
 def through(
@@ -151,19 +137,29 @@ def advanced(run: Run, at: MarchState, leg: Leg) -> MarchState:
     return at
 
 
-def first_place(run: Run, start: Relaxed, grading: Grading) -> MarchState:
-    """Return the initial solver state, before the machine is attached."""
-    state, leg = run.body.first(start), run.legs[0]
+def begun_run(
+    part: Part,
+    legs: tuple[Leg, ...],
+    settings: Settings,
+    stiffness: float | None = None,
+    profiles: bool = False,
+) -> tuple[Run, MarchState]:
+    """Return a run, and its place at the relaxed start, before the machine is attached."""
+    contact, start = part.contact, part.start
+    body = Body(contact, part.modes, np.asarray(part.modes.weights), part.growing)
+    history = History(SMALLEST_ENERGY * contact.span, stiffness)
+    state, leg = body.first(start), legs[0]
     mesh = Mesh(
-        finest=grading,
-        opening=opening(state, run.body.contact),
+        finest=part.grading,
+        opening=opening(state, contact),
         lattice=start.lattice,
-        grading=grading,
+        grading=part.grading,
         edge=0.0 if np.isnan(start.edge) else start.edge,
-        narrows=run.body.runs,
+        narrows=body.runs,
     )
-    books = EnergyTerms(0.0, np.zeros(len(run.body.weights)))
-    return MarchState(state, books, mesh, leg, 0, state.seen, leg.least_step, Lowest())
+    books = EnergyTerms(0.0, np.zeros(len(body.weights)))
+    at = MarchState(state, books, mesh, leg, 0, state.seen, leg.least_step, Lowest())
+    return Run(body, settings, legs, profiles, history), at
 
 
 def _begun(run: Run, at: MarchState, number: int) -> MarchState:
@@ -260,21 +256,6 @@ def _share(run: Run, at: MarchState) -> float:
     return (at.number + min(max(part, 0.0), 1.0)) / len(run.legs)
 
 
-def begun_run(
-    part: Part, leg: Leg, settings: Settings, stiffness: float | None = None
-) -> tuple[Run, MarchState]:
-    """Return a run of one leg from the relaxed start, and its first place, which is kept.
-
-    `stiffness` is that of the spring of the machine [output force/h0], None without one.
-    """
-    body = Body(part.contact, part.modes, np.asarray(part.modes.weights), part.growing)
-    history = History(SMALLEST_ENERGY * part.contact.span, stiffness)
-    run = Run(body, settings, (leg,), False, history)
-    at = first_place(run, part.start, part.grading)
-    run.keep(at)
-    return run, at
-
-
 class SteppedSimulation:
     """A contact at its relaxed start, moved by a drive in pieces of constant speed.
 
@@ -299,7 +280,8 @@ class SteppedSimulation:
         self._leg = Leg(stiffness, 0.0, least_step=least_step)
         self._largest = _INSIDE * part.grading.outer_radius
         spring = None if isinf(stiffness) else stiffness
-        self._run, self._at = begun_run(part, self._leg, settings, spring)
+        self._run, self._at = begun_run(part, (self._leg,), settings, spring)
+        self._run.keep(self._at)
 
     @property
     def now(self) -> Snapshot:

@@ -36,8 +36,7 @@ from viscotack.simulate.growth import finer
 from viscotack.simulate.history import History, Snapshot
 from viscotack.simulate.interface import resolved
 from viscotack.simulate.machine import Leg, legs_of, longest_time, reached, spring_travel
-from viscotack.simulate.march import march
-from viscotack.simulate.mesh import Grading
+from viscotack.simulate.march import Part, march
 from viscotack.simulate.preload import shallower
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.verdict import judged, out_of_time, status_of
@@ -156,28 +155,23 @@ def _run(
     k = groups.material.modulus_ratio
     spring = spring_travel(start, depths, groups.moves, groups.stiffness, k, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact, spring)
-    modes = modes_of_run(groups.material, legs, longest, settings)
-    grading, growing = discretised(groups, contact, modes, longest, max(depths), settings)
+    part = part_of_run(groups, contact, start, legs, longest, max(depths), settings)
 
     def seen(step: Snapshot) -> None:
         if watch is not None:
             watch(step.time, step.depth, step.force, step.edge / contact.edge_unit)
 
     history = march(
-        contact,
-        start,
-        modes,
+        part,
         legs,
-        grading,
         settings,
         until=until,
         stiffness=groups.stiffness,
-        growing=growing,
         profiles=fields,
         progress=progress,
         watch=None if watch is None else seen,
     )
-    result = _result(problem, groups, contact, history, modes, fields)
+    result = _result(problem, groups, contact, history, part.modes, fields)
     return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
@@ -249,19 +243,22 @@ def modes_of_run(
     )
 
 
-def discretised(
+def part_of_run(
     groups: Groups,
     contact: Contact,
-    modes: Modes,
+    start: Relaxed,
+    legs: tuple[Leg, ...],
     longest: float,
     deepest: float,
     settings: Settings,
-) -> tuple[Grading, Any]:
-    """Return the grading of the nodes of a run, and its law if that grows or ages, else None."""
+) -> Part:
+    """Return a contact ready for a run of these legs, longest time and largest depth."""
+    modes = modes_of_run(groups.material, legs, longest, settings)
     grading = contact.grading(finer(settings, groups.traction, longest), deepest)
     if not modes.weights:  # an elastic solid does not remember where the edge has been
         grading = replace(grading, scar_half_width=0.0)
-    return grading, groups.traction if has_rest(groups.traction) else None
+    growing = groups.traction if has_rest(groups.traction) else None
+    return Part(contact, start, modes, grading, growing)
 
 
 def _result(

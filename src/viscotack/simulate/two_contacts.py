@@ -19,16 +19,16 @@ radius, in the last steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf, log
+from typing import NamedTuple
 
 from viscotack.clock import TimeUp
-from viscotack.simulate.history import History, Snapshot
+from viscotack.simulate.history import History
 from viscotack.simulate.interface import separated
 from viscotack.simulate.jumps import followed
 from viscotack.simulate.machine import Leg
-from viscotack.simulate.march import Part, Units, begun_run, narrowed
+from viscotack.simulate.march import Part, begun_run, narrowed
 from viscotack.simulate.memory import step
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.steps import (
@@ -67,6 +67,15 @@ _TOGETHER = 1e-3
 _MOST_STEPS = 50_000
 
 
+@dataclass(frozen=True)
+class Units:
+    """SI values of the units of a contact: depth [m], force [N], time [s]."""
+
+    depth: float
+    force: float
+    time: float
+
+
 @dataclass(eq=False)
 class SeriesHistory:
     """History of two contacts in series.
@@ -91,28 +100,21 @@ class SeriesHistory:
 
 def march_in_series(
     parts: tuple[Part, Part],
+    units: tuple[Units, Units],
     *,
     speed: float,
     stiffness: float | None,
     settings: Settings,
-    watch: Callable[[float, float], None] | None = None,
 ) -> SeriesHistory:
-    """Pull two contacts in series apart at a speed [m/s] through a spring [N/m], None if rigid.
-
-    `watch` is called after each step with the time [s] and the force [N].
-    """
-    first, second = (begun_side(part, settings, speed) for part in parts)
-    K = inf if stiffness is None else stiffness
-    drive = first.depth + second.depth + first.force / K
-    pair = _Pair(first, second, speed, K, drive)
+    """Pull two contacts in series apart at a speed [m/s] through a spring [N/m], None if rigid."""
+    first, second = (
+        _begun(part, unit, settings, speed) for part, unit in zip(parts, units, strict=True)
+    )
+    pair = _Pair((first, second), speed, inf if stiffness is None else stiffness)
     history = SeriesHistory((first.run.history, second.run.history))
     try:
         while not history.outcome:
-            pair, history.outcome = _stepped(pair)
-            if not history.outcome:
-                pair, history.outcome = _judged(pair)
-            if watch is not None:
-                watch(first.units.time * pair.first.at.seen.time, pair.force)
+            history.outcome = pair.stepped() or pair.judged()
     except TimeUp as limit:
         history.outcome, history.reason = "time", str(limit)
     if history.outcome not in ("steps", "time"):
@@ -120,8 +122,17 @@ def march_in_series(
     return history
 
 
+class _Moved(NamedTuple):
+    """A trial step of one side, with depth [m] and force [N] at its end."""
+
+    at: MarchState
+    attempt: Attempt
+    depth: float
+    force: float
+
+
 @dataclass(frozen=True, eq=False)
-class Side:
+class _Side:
     """One of the two contacts between steps.
 
     `speed` is the rate of its depth [m/s] in the last step, `stiffness` its change of force by
@@ -152,10 +163,6 @@ class Side:
         goal = ahead(self.run, at)
         return (at.dt if goal is None else min(goal.dt, at.dt)) * self.units.time
 
-    def is_instant(self, dt: float) -> bool:
-        """Whether the solid responds instantaneously to a step of this length [s]."""
-        return instant(self.run, step(self.run.body.modes, dt / self.units.time))
-
     def receded(self) -> float:
         """Return ln of the ratio by which the radius fell in the last steps."""
         edges = [x.edge for x in self.run.history.snapshots[-1 - _LAST :]]
@@ -167,202 +174,139 @@ class Side:
         rate = (depth / self.units.depth - began.depth) / own
         at = replace(self.at, leg=replace(self.at.leg, rate=rate), began=began, dt=own)
         goal = ahead(run, at)
-        if goal is not None:
+        if goal is None:
+            s = step(run.body.modes, own)
+            trial = tried(run, at, s)
+            attempt = None if trial.lost or trial.released else weighed(run, at, s, trial)
+        else:
             attempt = travelled(run, at, goal) if goal.dt == own else None
-            return None if attempt is None else _Moved(at, attempt, self.units)
-        s = step(run.body.modes, own)
-        trial = tried(run, at, s)
-        if trial.lost or trial.released:
+        if attempt is None:
             return None
-        return _Moved(at, weighed(run, at, s, trial), self.units)
-
-    def arrived(self, moved: _Moved, dt: float, stiffness: float) -> Side:
-        """Return the side after an accepted step."""
-        speed = (moved.depth - self.depth) / dt
-        after = arrived(moved.at, moved.attempt)
-        self.run.keep(after)
-        return replace(self, at=after, speed=speed, stiffness=stiffness)
-
-    def remeshed(self) -> Side:
-        """Return the side with fine nodes around its edge, if the edge has left them."""
-        at = self.at
-        if at.mesh.left_by(at.seen.edge, at.seen.inner) or narrowed(self.run, at):
-            return replace(self, at=followed(self.run, at))
-        return self
+        seen = attempt.after.seen
+        return _Moved(at, attempt, seen.depth * self.units.depth, seen.force * self.units.force)
 
 
-@dataclass(frozen=True, eq=False)
-class _Moved:
-    """A trial step of one side."""
-
-    at: MarchState
-    attempt: Attempt
-    units: Units
-
-    @property
-    def seen(self) -> Snapshot:
-        return self.attempt.after.seen
-
-    @property
-    def force(self) -> float:
-        return self.seen.force * self.units.force
-
-    @property
-    def depth(self) -> float:
-        return self.seen.depth * self.units.depth
-
-
-@dataclass(frozen=True, eq=False)
-class _Split:
-    """Trial steps of both sides, their stiffnesses [N/m], and the difference of forces [N]."""
-
-    moved: tuple[_Moved, _Moved]
-    stiffness: tuple[float, float]
-    difference: float
-
-    @property
-    def strain(self) -> float:
-        """Squared ratio of the step to the allowed one, the larger of both."""
-        return max(each.attempt.strain for each in self.moved)
-
-    @property
-    def too_long(self) -> bool:
-        """Whether the step must be rejected."""
-        return any(each.attempt.too_long for each in self.moved)
-
-    @property
-    def jumps(self) -> bool:
-        """Whether a contact loses energy in a step that should be reversible."""
-        attempts = [each.attempt for each in self.moved]
-        return any(abs(a.missing) > _CLEARLY * a.tolerated for a in attempts)
-
-
-@dataclass(frozen=True, eq=False)
 class _Pair:
     """Both contacts between steps; depth of the drive [m] and largest tension so far [N]."""
 
-    first: Side
-    second: Side
-    speed: float
-    spring: float
-    drive: float
-    largest_tension: float = 0.0
-
-    @property
-    def sides(self) -> tuple[Side, Side]:
-        return self.first, self.second
-
-    @property
-    def force(self) -> float:
-        """Common force [N], positive in compression."""
-        return self.first.force
-
-    @property
-    def scale(self) -> float:
-        """Scale of the forces [N]."""
-        units = max(side.units.force for side in self.sides)
-        return max(abs(self.force), self.largest_tension, _LEAST_FORCE * units)
+    def __init__(self, sides: tuple[_Side, _Side], speed: float, spring: float) -> None:
+        self.sides, self.speed, self.spring = sides, speed, spring
+        self.drive = sides[0].depth + sides[1].depth + sides[0].force / spring
+        self.largest_tension = 0.0
 
     @property
     def opening(self) -> int:
         """The contact whose edge recedes faster, relative to its radius; -1 if both do."""
-        first, second = self.first.receded(), self.second.receded()
+        first, second = (side.receded() for side in self.sides)
         together = first == second or abs(first - second) < _TOGETHER * max(first, second)
         return -1 if together else int(second > first)
 
-    def is_shortest(self, dt: float) -> bool:
-        """Whether a shorter step [s] would not change the result."""
+    def stepped(self) -> str:
+        """Advance by one step, shortened until it is accepted; return the outcome of the run."""
+        dt = min(side.longest() for side in self.sides)
         fastest = max(1.0, *(abs(side.speed) / self.speed for side in self.sides))
         least = _SHORTER * min(side.least_step for side in self.sides) / min(fastest, _RUNNING)
-        return dt <= least * (1 + 1e-9) and all(side.is_instant(dt) for side in self.sides)
+        while True:
+            found = self.split(dt)
+            # a shorter step would not change the result
+            shortest = dt <= least * (1 + 1e-9) and all(
+                instant(side.run, step(side.run.body.modes, dt / side.units.time))
+                for side in self.sides
+            )
+            attempts = [] if found is None else [each.attempt for each in found[0]]
+            # a contact loses energy in a step that should be reversible
+            jumps = any(abs(a.missing) > _CLEARLY * a.tolerated for a in attempts)
+            if shortest and (found is None or jumps):
+                return "jump"
+            if found is None:
+                dt *= UNBALANCED_CUT
+            elif any(a.too_long for a in attempts) and not shortest:
+                dt *= cut(max(a.strain for a in attempts))
+            else:
+                break
+            for side in self.sides:
+                side.run.history.rejected += 1
+        first, second = (
+            replace(
+                side,
+                at=arrived(moved.at, moved.attempt),
+                speed=(moved.depth - side.depth) / dt,
+                stiffness=stiffness,
+            )
+            for side, moved, stiffness in zip(self.sides, *found, strict=True)
+        )
+        self.sides, self.drive = (first, second), self.drive - self.speed * dt
+        for side in self.sides:
+            side.run.keep(side.at)
+        self.largest_tension = max(self.largest_tension, -first.force)
+        return ""
 
-    def split(self, dt: float) -> _Split | None:
-        """Find the depths after a step at which both forces are equal; None if there are none."""
-        drive, slopes, before = self.drive - self.speed * dt, [], None
-        slopes = [side.stiffness for side in self.sides]
-        depth, best = self.first.depth + dt * self.first.speed, None
+    def split(self, dt: float) -> tuple[tuple[_Moved, _Moved], list[float]] | None:
+        """Find the step at whose end both forces are equal, and the stiffnesses [N/m] of the sides.
+
+        None if there is no equilibrium at equal forces.
+        """
+        (one, other), before, best, least = self.sides, None, None, inf
+        drive, slopes = self.drive - self.speed * dt, [one.stiffness, other.stiffness]
+        depth = one.depth + dt * one.speed
+        scale = max(side.units.force for side in self.sides)
+        scale = max(abs(one.force), self.largest_tension, _LEAST_FORCE * scale)
         for _ in range(_MOST_TRIALS):
-            first = self.first.moved(dt, depth)
-            if first is None:
+            if (first := one.moved(dt, depth)) is None:
                 return None
-            second = self.second.moved(dt, drive - first.force / self.spring - depth)
+            second = other.moved(dt, drive - first.force / self.spring - depth)
             if second is None:
                 return None
             off, now = first.force - second.force, (first, second)
             if before is not None:
-                slopes = [self._slope(*x) for x in zip(before, now, slopes, strict=True)]
-            if best is None or abs(off) < abs(best.difference):
-                best = _Split(now, (slopes[0], slopes[1]), off)
-            if abs(off) < _EQUAL * self.scale:
+                for i, (then, moved) in enumerate(zip(before, now, strict=True)):
+                    change = moved.force - then.force
+                    if abs(change) > _EQUAL * scale:  # else round-off prevails
+                        slopes[i] = change / (moved.depth - then.depth)
+            if abs(off) < least:
+                best, least = (now, slopes.copy()), abs(off)
+            if abs(off) < _EQUAL * scale:
                 return best
             slope = slopes[0] + slopes[1] * (1 + slopes[0] / self.spring)
             if not slope > 0:
                 return None
             before, depth = now, depth - off / slope
-        close = best is not None and abs(best.difference) < _NEARLY * self.scale
-        return best if close else None
+        return best if least < _NEARLY * scale else None
 
-    def _slope(self, before: _Moved, now: _Moved, known: float) -> float:
-        """Return the stiffness between two trials [N/m]; the known one if round-off prevails."""
-        travel, change = now.depth - before.depth, now.force - before.force
-        return change / travel if abs(change) > _EQUAL * self.scale else known
-
-    def after(self, split: _Split, dt: float) -> _Pair:
-        """Return the pair after an accepted step."""
-        first, second = (
-            side.arrived(moved, dt, stiffness)
-            for side, moved, stiffness in zip(self.sides, split.moved, split.stiffness, strict=True)
-        )
-        drive, most = self.drive - self.speed * dt, max(self.largest_tension, -first.force)
-        return replace(self, first=first, second=second, drive=drive, largest_tension=most)
+    def judged(self) -> str:
+        """Return the outcome if the run has ended; remesh where an edge has left the fine nodes."""
+        first, tension = self.sides[0], -self.sides[0].force
+        if any(separated(side.at.state.gap, side.run.body.contact.span) for side in self.sides):
+            return "detached"
+        if 0 < self.largest_tension and tension < _LEFT * self.largest_tension:
+            if first.at.lowest.since > _LAST:
+                return "fallen"
+        if len(first.run.history.snapshots) > _MOST_STEPS:
+            return "steps"
+        self.sides = _remeshed(self.sides[0]), _remeshed(self.sides[1])
+        return ""
 
 
-def begun_side(part: Part, settings: Settings, speed: float) -> Side:
+def _remeshed(side: _Side) -> _Side:
+    at = side.at
+    if at.mesh.left_by(at.seen.edge, at.seen.inner) or narrowed(side.run, at):
+        return replace(side, at=followed(side.run, at))
+    return side
+
+
+def _begun(part: Part, units: Units, settings: Settings, speed: float) -> _Side:
     """Return a contact at its relaxed start; each takes half the speed of the drive at first."""
-    contact, units = part.contact, part.units
+    travel = part.contact.travel
     rate = speed / 2 / units.depth * units.time
-    leg = Leg(inf, -rate, least_step=settings.first_travel * contact.travel / rate)
-    run, at = begun_run(part, leg, settings)
+    leg = Leg(inf, -rate, least_step=settings.first_travel * travel / rate)
+    run, at = begun_run(part, (leg,), settings)
+    run.keep(at)
     at = replace(at, state=run.body.at_rest(at.state))
-    stiffness = units.force / (contact.travel * units.depth)
-    side = Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
+    stiffness = units.force / (travel * units.depth)
+    side = _Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
     # the stiffness of a fast solid is larger by up to the ratio of its moduli
     moved = side.moved(side.least_step, side.depth - speed / 2 * side.least_step)
     if moved is None:
         return side
     known = (moved.force - side.force) / (moved.depth - side.depth)
     return replace(side, stiffness=known) if known > 0 else side
-
-
-def _stepped(pair: _Pair) -> tuple[_Pair, str]:
-    """Advance by one step, shortened until it is accepted; return the outcome of the run or ""."""
-    dt = min(side.longest() for side in pair.sides)
-    while True:
-        split, shortest = pair.split(dt), pair.is_shortest(dt)
-        if split is None:
-            if shortest:
-                return pair, "jump"
-            dt *= UNBALANCED_CUT
-        elif shortest and split.jumps:
-            return pair, "jump"
-        elif split.too_long and not shortest:
-            dt *= cut(split.strain)
-        else:
-            return pair.after(split, dt), ""
-        for side in pair.sides:
-            side.run.history.rejected += 1
-
-
-def _judged(pair: _Pair) -> tuple[_Pair, str]:
-    """Check whether the run has ended, and remesh where an edge has left the fine nodes."""
-    sides, tension = pair.sides, -pair.force
-    if any(separated(side.at.state.gap, side.run.body.contact.span) for side in sides):
-        return pair, "detached"
-    if pair.largest_tension > 0 and tension < _LEFT * pair.largest_tension:
-        falling = sides[0].at.lowest.since > _LAST
-        if falling:
-            return pair, "fallen"
-    if len(sides[0].run.history.snapshots) > _MOST_STEPS:
-        return pair, "steps"
-    first, second = (side.remeshed() for side in sides)
-    return replace(pair, first=first, second=second), ""

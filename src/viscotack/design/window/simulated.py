@@ -27,10 +27,10 @@ from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.crack_contact.by_crack import too_short
 from viscotack.simulate.history import History
 from viscotack.simulate.machine import Leg
-from viscotack.simulate.march import Part, Units
+from viscotack.simulate.march import Part
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.solver import contact_of, discretised, modes_of_run, relaxed_start
-from viscotack.simulate.two_contacts import SeriesHistory, march_in_series
+from viscotack.simulate.solver import contact_of, part_of_run, relaxed_start
+from viscotack.simulate.two_contacts import SeriesHistory, Units, march_in_series
 from viscotack.threads import one_blas_thread
 
 _STATUS = {
@@ -118,6 +118,7 @@ def simulate_in_series(
             raise InputError(f"{limit} before the relaxed starts were found") from None
         history = march_in_series(
             _parts(posed, test, settings),
+            (posed[0].units, posed[1].units),
             speed=test.speed,
             stiffness=test.stiffness,
             settings=settings,
@@ -175,11 +176,8 @@ def part_of(posed: PosedContact, settings: Settings, shortest: float, longest: f
     """Return a contact with modes that cover the times from the shortest to the longest [s]."""
     groups, contact, unit = posed.groups, posed.contact, posed.units.time
     legs = (Leg(inf, -1.0, least_step=shortest / unit),)
-    modes = modes_of_run(groups.material, legs, longest / unit, settings)
-    grading, growing = discretised(
-        groups, contact, modes, longest / unit, posed.start.depth, settings
-    )
-    return Part(contact, posed.start, modes, grading, posed.units, growing)
+    longest, deepest = longest / unit, posed.start.depth
+    return part_of_run(groups, contact, posed.start, legs, longest, deepest, settings)
 
 
 def _result(
