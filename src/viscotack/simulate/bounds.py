@@ -7,7 +7,6 @@ time.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -18,14 +17,10 @@ from viscotack.model.problem import Groups
 from viscotack.model.protocol import (
     Apart,
     Approach,
-    AtDepth,
-    AtForce,
     AtRadius,
-    LoadTo,
     Move,
-    MoveTo,
     Retract,
-    Start,
+    end_of,
 )
 from viscotack.model.traction import ages, effective_range
 from viscotack.simulate.contacts.contact import Contact, Relaxed
@@ -151,7 +146,11 @@ def _check_numbers(groups: Groups) -> None:
 
 def _check_depths(groups: Groups, contact: Contact) -> None:
     """Reject a contact that is pressed too deep."""
-    for whose, state in _states(groups):
+    named: dict[str, Any] = {"the start": groups.start}
+    named |= {f"move {number}": end_of(move) for number, move in enumerate(groups.moves, 1)}
+    for whose, state in named.items():
+        if state is None or isinstance(state, Apart):
+            continue
         depth, deepest = contact.deepest(state), _DEEPEST_PUNCH
         for radius in () if groups.in_plane_strain else _RADII:
             deepest = contact.deepest(AtRadius(radius))
@@ -162,17 +161,3 @@ def _check_depths(groups: Groups, contact: Contact) -> None:
                 f"{whose}, {state}, presses to a depth of about {depth:.3g} h0, and a simulation "
                 f"takes up to {deepest:.3g} here; press less"
             )
-
-
-def _states(groups: Groups) -> Iterator[tuple[str, Start]]:
-    """Yield the states to which a test presses."""
-    if not isinstance(groups.start, Apart):
-        yield "the start", groups.start
-    for number, move in enumerate(groups.moves, 1):
-        match move:
-            case Approach() | Retract():
-                yield f"move {number}", move.to
-            case MoveTo():
-                yield f"move {number}", AtDepth(move.depth)
-            case LoadTo():
-                yield f"move {number}", AtForce(move.force)

@@ -18,12 +18,13 @@ from viscotack.model.protocol import (
     Approach,
     AtDepth,
     AtForce,
+    AtRadius,
     Dwell,
     LoadTo,
     Move,
     MoveTo,
     Retract,
-    Start,
+    end_of,
 )
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.history import Snapshot
@@ -138,6 +139,10 @@ _PULL_OFF = 4 / 3
 _FIRST_MOVE = 1e-3
 
 
+# Attributes of a leg that ends at a state.
+_ENDS = {AtDepth: "depth", AtForce: "force", AtRadius: "edge"}
+
+
 def legs_of(
     moves: tuple[Move, ...],
     rate: float | None,
@@ -152,15 +157,11 @@ def legs_of(
     for move in moves:
         match move:
             case Approach() | Retract():
-                way = 1.0 if isinstance(move, Approach) else -1.0
-                legs.append(
-                    Leg(
-                        k,
-                        way * move.speed,
-                        **_end(move.to, contact),
-                        least_step=first_travel / move.speed,
-                    )
-                )
+                way, to = (1.0 if isinstance(move, Approach) else -1.0), move.to
+                unit = contact.edge_unit if isinstance(to, AtRadius) else 1.0
+                end = {_ENDS[type(to)]: to.value * unit}
+                step = first_travel / move.speed
+                legs.append(Leg(k, way * move.speed, **end, least_step=step))
             case MoveTo():
                 step = _FIRST_MOVE * move.duration
                 legs.append(Leg(k, np.nan, move.duration, drive=move.depth, least_step=step))
@@ -176,27 +177,12 @@ def legs_of(
     return tuple(legs)
 
 
-def _end(to: Start, contact: Contact) -> dict[str, float]:
-    if isinstance(to, AtDepth):
-        return {"depth": to.depth}
-    if isinstance(to, AtForce):
-        return {"force": to.force}
-    return {"edge": to.contact_radius * contact.edge_unit}
-
-
 def reached(start: Relaxed, moves: tuple[Move, ...], contact: Contact) -> list[float]:
     """Return the approximate depths [h0] at the start and after each move of a test."""
     depths = [start.depth]
     for move in moves:
-        match move:
-            case Approach() | Retract():
-                depths.append(contact.deepest(move.to))
-            case MoveTo():
-                depths.append(move.depth)
-            case LoadTo():
-                depths.append(contact.deepest(AtForce(move.force)))
-            case Dwell():
-                depths.append(depths[-1])
+        end = end_of(move)
+        depths.append(depths[-1] if end is None else contact.deepest(end))
     return depths
 
 
@@ -218,10 +204,8 @@ def spring_travel(
     pressed = (max(*depths, 0.0) / contact.travel) ** 1.5
     forces = [abs(start.force), max(pressed, _PULL_OFF) / modulus_ratio]
     for move in moves:
-        if isinstance(move, LoadTo):
-            forces.append(abs(move.force))
-        elif isinstance(move, Approach | Retract) and isinstance(move.to, AtForce):
-            forces.append(abs(move.to.force))
+        if isinstance(end := end_of(move), AtForce):
+            forces.append(abs(end.force))
     return max(forces) / stiffness
 
 

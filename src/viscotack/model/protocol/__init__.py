@@ -14,6 +14,7 @@ from .moves import (
     Retraction,
     Start,
     Units,
+    end_of,
     states,
 )
 
@@ -31,5 +32,6 @@ __all__ = [
     "Retraction",
     "Start",
     "Units",
+    "end_of",
     "states",
 ]

@@ -405,15 +405,20 @@ class Units:
         return replace(whole, **new)
 
 
+def end_of(move: Move) -> Start | None:
+    """Return the state to which a move leads, interpreted as a relaxed one; None of a dwell."""
+    match move:
+        case Approach() | Retract():
+            return move.to
+        case MoveTo():
+            return AtDepth(move.depth)
+        case LoadTo():
+            return AtForce(move.force)
+        case Dwell():
+            return None
+
+
 def states(protocol: Retraction) -> list[Start]:
-    """Return the states at the ends of the moves, interpreted as relaxed states."""
-    found = [] if isinstance(protocol.start, Apart) else [protocol.start]
-    for move in protocol.moves:
-        match move:
-            case Approach() | Retract():
-                found.append(move.to)
-            case MoveTo():
-                found.append(AtDepth(move.depth))
-            case LoadTo():
-                found.append(AtForce(move.force))
-    return found
+    """Return the states at the start and at the ends of the moves, interpreted as relaxed ones."""
+    found = (protocol.start, *map(end_of, protocol.moves))
+    return [state for state in found if state is not None and not isinstance(state, Apart)]

@@ -23,6 +23,7 @@ from viscotack.model.protocol import (
     LoadTo,
     MoveTo,
     Retract,
+    end_of,
 )
 from viscotack.theory import lennard_jones
 from viscotack.theory.crack.contact import (
@@ -66,23 +67,15 @@ def not_covered(groups: Groups) -> str:
 
 def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
     """Contact radius at the start (0 if apart) and largest radius of the history [beta]."""
-    radii = [_relaxed_radius(state, groups, profile) for state in _all_states(groups)]
+    states: list[Any] = [] if isinstance(groups.start, Apart) else [groups.start]
+    for move in groups.moves:
+        pressed = isinstance(move, MoveTo | LoadTo) and end_of(move).value > 0  # type: ignore[union-attr]
+        if isinstance(move, Approach) or pressed:
+            states.append(end_of(move))
+    radii = [_relaxed_radius(state, groups, profile) for state in states]
     if isinstance(groups.start, Apart):
         return 0.0, max([1.0, *radii])
     return radii[0], max(1.0, *radii) if len(radii) > 1 else radii[0]
-
-
-def _all_states(groups: Groups) -> list[Any]:
-    found: list[Any] = [] if isinstance(groups.start, Apart) else [groups.start]
-    for move in groups.moves:
-        match move:
-            case Approach():
-                found.append(move.to)
-            case MoveTo() if move.depth > 0:
-                found.append(AtDepth(move.depth))
-            case LoadTo() if move.force > 0:
-                found.append(AtForce(move.force))
-    return found
 
 
 def _relaxed_radius(state: Any, groups: Groups, profile: Profile) -> float:

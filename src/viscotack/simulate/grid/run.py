@@ -151,55 +151,32 @@ def march_on_grid(
     the checkpoint continues from there.
     """
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
-    body = GridBody(contact, modes, np.asarray(modes.weights))
-    keeper = _Keeper(checkpoint)
-    run = GridRun(body, settings, legs, False, history, frames=Frames(frames), told=keeper.take)  # type: ignore[arg-type]
-    at = keeper.begun(run)
+    body, last = GridBody(contact, modes, np.asarray(modes.weights)), []
+
+    def write(at: MarchState, counted: tuple[int, int, int]) -> None:
+        if checkpoint is not None:
+            checkpoint.keep(_MAIN, run_arrays(run, at, counted))
+
+    def counts() -> tuple[int, int, int]:
+        return history.iterations, history.rejected, len(history.events)
+
+    def take(at: MarchState) -> None:
+        last[:] = [at, counts()]
+        # the first place is before the machine is attached
+        if checkpoint is not None and checkpoint.due and len(history.snapshots) > 1:
+            write(*last)
+
+    run = GridRun(body, settings, legs, False, history, frames=Frames(frames), told=take)  # type: ignore[arg-type]
+    at = None
+    if checkpoint is not None:
+        at = checkpoint.part(_MAIN, lambda arrays: continued(run, arrays))
     if at is None:
         state, leg = body.first(start), legs[0]
         books = EnergyTerms(0.0, np.zeros(len(body.weights)))
         at = MarchState(state, books, Fixed(), leg, 0, state.seen, leg.least_step, Lowest())  # type: ignore[arg-type]
     if not history.outcome:
         through(run, at, "detached", progress)
-        keeper.end()
+        if last and len(history.snapshots) > 1:
+            # where the time limit was met, counts are those of the last place
+            write(last[0], last[1] if history.outcome == "time" else counts())
     return run
-
-
-class _Keeper:
-    """Writes a run to a checkpoint, now and then and at its end."""
-
-    def __init__(self, checkpoint: Checkpoint | None) -> None:
-        self.checkpoint = checkpoint
-        self.run: GridRun | None = None
-        self.at: MarchState | None = None
-        self.counted = (0, 0, 0)
-
-    def begun(self, run: GridRun) -> MarchState | None:
-        """Continue from the checkpoint; None if it does not have the run."""
-        self.run = run
-        if self.checkpoint is None:
-            return None
-        return self.checkpoint.part(_MAIN, lambda arrays: continued(run, arrays))
-
-    def take(self, at: MarchState) -> None:
-        """Take a place that is kept, and write it if it is time."""
-        assert self.run is not None
-        history = self.run.history
-        self.at, self.counted = at, (history.iterations, history.rejected, len(history.events))
-        # the first place is before the machine is attached
-        if self.checkpoint is not None and self.checkpoint.due and len(history.snapshots) > 1:
-            self._write()
-
-    def end(self) -> None:
-        """Write the run after its end, or the last place before the time limit."""
-        assert self.run is not None
-        history = self.run.history
-        if self.checkpoint is None or len(history.snapshots) < 2:
-            return
-        if history.outcome != "time":
-            self.counted = history.iterations, history.rejected, len(history.events)
-        self._write()
-
-    def _write(self) -> None:
-        assert self.run is not None and self.at is not None and self.checkpoint is not None
-        self.checkpoint.keep(_MAIN, run_arrays(self.run, self.at, self.counted))

@@ -32,7 +32,7 @@ from viscotack.model.problem import case_file
 from viscotack.model.problem.nouns import known
 from viscotack.model.problem.rough_case import RoughCase
 from viscotack.model.problem.units import time_unit
-from viscotack.model.protocol import Apart, Approach, AtRadius, Retract, Retraction, Units
+from viscotack.model.protocol import Approach, AtRadius, Retract, Retraction, Units
 from viscotack.model.surfaces import HeightMap, Roughness, roughness
 from viscotack.model.surfaces.heights import rms_curvature
 from viscotack.model.tables import Reading
@@ -219,11 +219,6 @@ class RoughProblem:
     def units(self) -> Units:
         """Factors that convert the protocol from SI."""
         return Units(1 / self.traction.equilibrium_gap, 1 / self.force, np.nan, 1 / self.time)
-
-    @property
-    def starts_apart(self) -> bool:
-        """Whether the test begins without a contact."""
-        return isinstance(self.protocol.start, Apart)
 
 
 _TOML = (".toml", "")
