@@ -182,9 +182,6 @@ class Sensitivities:
     inputs : mapping
         Value of each input, by name: ``material.tau0``, ``protocol.preload_force``; in the unit of
         the problem.
-    derivatives : mapping
-        For each output, its derivative by each input; in SI where the problem is, else in the
-        dimensionless units of the result.
     elasticities : mapping
         For each output y, its elasticity by each input x, (x/|y|) dy/dx: for positive outputs
         d ln y/d ln x.
@@ -196,7 +193,6 @@ class Sensitivities:
     """
 
     inputs: Mapping[str, float]
-    derivatives: Mapping[str, Mapping[str, float]]
     elasticities: Mapping[str, Mapping[str, float]]
     errors: Mapping[str, Mapping[str, float]]
     refused: Mapping[str, str]

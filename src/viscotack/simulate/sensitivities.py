@@ -80,7 +80,7 @@ def sensitivities_of(
     run: Callable[[Case, Settings], Result],
     done: Callable[[int], None],
 ) -> Sensitivities:
-    """Return the elasticities and derivatives of the outputs at the pull-off.
+    """Return the elasticities of the outputs at the pull-off.
 
     `run` simulates a problem with settings up to its pull-off; `done` is called with the number of
     inputs that are finished.
@@ -91,11 +91,9 @@ def sensitivities_of(
     try:
         middle = [_pull_off(run(problem, level)) for level in levels]
     except InputError as error:
-        return Sensitivities(inputs, {}, {}, {}, dict.fromkeys(outputs, str(error)))
-    sizes, course = middle[0]
-    derivatives, elasticities, errors = (
-        {name: dict[str, float]() for name in outputs} for _ in range(3)
-    )
+        return Sensitivities(inputs, {}, {}, dict.fromkeys(outputs, str(error)))
+    course = middle[0][1]
+    elasticities, errors = ({name: dict[str, float]() for name in outputs} for _ in range(2))
     refused: dict[str, str] = {}
     for number, (name, points) in enumerate(changes.items(), 1):
         try:
@@ -116,7 +114,7 @@ def sensitivities_of(
             for (here, _), side in zip(middle, sides, strict=True)
         )
         off = np.maximum(*np.abs(fine - coarse) * [[1.0], [0.5]])
-        for output, size, slope, kink, error in zip(outputs, sizes, *fine, off, strict=True):
+        for output, slope, kink, error in zip(outputs, *fine, off, strict=True):
             why = ""
             if not np.isfinite(error):
                 why = "one of the simulations does not define it"
@@ -128,9 +126,8 @@ def sensitivities_of(
                 refused[f"{output} by {name}"] = why
                 continue
             elasticities[output][name], errors[output][name] = float(slope), float(error)
-            derivatives[output][name] = float(slope * abs(size) / inputs[name])
-    known = [{k: v for k, v in x.items() if v} for x in (derivatives, elasticities, errors)]
-    return Sensitivities(inputs, known[0], known[1], known[2], refused)
+    known = [{k: v for k, v in x.items() if v} for x in (elasticities, errors)]
+    return Sensitivities(inputs, known[0], known[1], refused)
 
 
 def _pull_off(result: Result) -> tuple[npt.NDArray, tuple[int, list[str]]]:

@@ -191,25 +191,18 @@ class RevolutionContact(ABC):
         if isinstance(start, AtDepth):
             return self._at_depth(start.depth, settings)
         if isinstance(start, AtRadius):
-            wanted = start.contact_radius
-            first = self.jkr_depth(wanted * _RADIUS_UNIT)
-            return self._where(
-                lambda x: x.edge / _RADIUS_UNIT, wanted, "contact radius", first, settings
-            )
-        return self._where(
-            lambda x: x.force, start.force, "force", self._jkr_depth(start), settings
-        )
+            wanted, unit = start.contact_radius, _RADIUS_UNIT
+            first = self.jkr_depth(wanted * unit)
+            return self._where(lambda x: x.edge / unit, wanted, "contact radius", first, settings)
+        return self._where(lambda x: x.force, start.force, "force", self.deepest(start), settings)
 
     def deepest(self, start: Start) -> float:
         """Return the approximate depth [h0] of a start, by JKR."""
         if isinstance(start, AtDepth):
             return start.depth
         if isinstance(start, AtForce):
-            return self._jkr_depth(start)
+            return self.jkr_depth(self.jkr_radius_at_force(1.5 * np.pi * start.force))
         return self.jkr_depth(start.contact_radius * _RADIUS_UNIT)
-
-    def _jkr_depth(self, start: AtForce) -> float:
-        return self.jkr_depth(self.jkr_radius_at_force(1.5 * np.pi * start.force))
 
     def _apart(self, start: Apart, settings: Settings) -> Relaxed:
         depth = 1 - start.gap

@@ -91,11 +91,11 @@ class ShapeContact(RevolutionContact):
 
     def jkr_radius(self, depth: float) -> float:
         """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
-        return self._where_last(self.jkr_depth, depth, self._last_by_depth, self._widest)
+        return self._where_last(self.jkr_depth, depth, self._lowest(self.jkr_depth), self._widest)
 
     def jkr_radius_at_force(self, force: float) -> float:
         """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
-        return self._where_last(self._jkr_force, force, self._last_by_force, self._widest)
+        return self._where_last(self._jkr_force, force, self._lowest(self._jkr_force), self._widest)
 
     def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
@@ -184,18 +184,6 @@ class ShapeContact(RevolutionContact):
         """Largest radius [beta] at which JKR contacts are looked for."""
         return min(_BEYOND * self._known, self._widest_on_layer, _MOST)
 
-    def _too_wide(self) -> str:
-        """Return the reason why a contact beyond the widest radius is rejected."""
-        if self._widest == self._widest_on_layer:
-            return (
-                f"the contact would be wider than {on_layer.LARGEST:g} thicknesses of the layer, "
-                "too wide for a shape with details; press less, or make the layer thicker"
-            )
-        return (
-            f"the contact would be larger than the profile is known, {self._known:.4g} lengths "
-            "beta; press less, or give rows farther out"
-        )
-
     def _where_last(self, function: Any, value: float, low: float, most: float = _MOST) -> float:
         """Return the largest radius at which an eventually increasing function has this value.
 
@@ -212,8 +200,19 @@ class ShapeContact(RevolutionContact):
             last = int(below[-1])
             if 2 * radii[last] < far or (far == most and radii[last] < far):
                 break
+            if far == most == _MOST:
+                raise InputError(_UNBOUND.format(value, most))
+            if far == most == self._widest_on_layer:
+                raise InputError(
+                    f"the contact would be wider than {on_layer.LARGEST:g} thicknesses of the "
+                    "layer, too wide for a shape with details; press less, or make the layer "
+                    "thicker"
+                )
             if far == most:
-                raise InputError(self._too_wide() if most < _MOST else _UNBOUND.format(value, most))
+                raise InputError(
+                    "the contact would be larger than the profile is known, "
+                    f"{self._known:.4g} lengths beta; press less, or give rows farther out"
+                )
             far = min(2 * far, most)
         ends = float(radii[last]), float(radii[last + 1])
         # the function at one radius has other digits than at many
@@ -230,40 +229,36 @@ class ShapeContact(RevolutionContact):
         known = end(self.shape)
         return known if np.isfinite(known) else max(_FAR, _FAR * detail(self.shape))
 
-    def _looks(self, far: float) -> npt.NDArray:
-        """Return the search radii [beta] for a shape with details."""
-        many = int(min(_LOOKS * far / detail(self.shape), _MOST_LOOKS))
-        even = np.linspace(0.0, far, max(many, _LOOKS) + 1)[1:]
-        return np.unique(np.concatenate([np.geomspace(_LEAST, far, 100), even]))
-
     def _bare_depth(self, radius: Any) -> Any:
         return self.tabor * indenter.bare_depth(radius, shape=self.shape, body=self.body)
 
     def _jkr_force(self, radius: Any) -> Any:
         return indenter.force(radius, **self._jkr)
 
-    @cached_property
-    def _last_by_depth(self) -> float:
-        return self._lowest(self.jkr_depth)
-
-    @cached_property
-    def _last_by_force(self) -> float:
-        return self._lowest(self._jkr_force)
-
     def _lowest(self, function: Any) -> float:
         """Return the radius [beta] at which a function is least, of all its minima."""
-        if np.isinf(detail(self.shape)):
-            return least(function, _NEAR_BETA)
-        radii, found = self._seen(function, min(self._far, self._widest))
-        return float(radii[np.argmin(found)])
+        if function.__name__ not in self._minima:
+            if np.isinf(detail(self.shape)):
+                found = least(function, _NEAR_BETA)
+            else:
+                radii, values = self._seen(function, min(self._far, self._widest))
+                found = float(radii[np.argmin(values)])
+            self._minima[function.__name__] = found
+        return self._minima[function.__name__]
 
     def _seen(self, function: Any, far: float) -> tuple[npt.NDArray, npt.NDArray]:
-        """Return the search radii [beta] and the cached function values there."""
+        """Return search radii [beta] for a shape with details, and the function values there."""
         key = function.__name__, far
         if key not in self._kept:
-            radii = self._looks(far)
+            many = int(min(_LOOKS * far / detail(self.shape), _MOST_LOOKS))
+            even = np.linspace(0.0, far, max(many, _LOOKS) + 1)[1:]
+            radii = np.unique(np.concatenate([np.geomspace(_LEAST, far, 100), even]))
             self._kept[key] = radii, np.asarray(function(radii))
         return self._kept[key]
+
+    @cached_property
+    def _minima(self) -> dict[str, float]:
+        return {}
 
     @cached_property
     def _kept(self) -> dict[tuple[str, float], tuple[npt.NDArray, npt.NDArray]]:
@@ -347,13 +342,6 @@ class DiscContact(ShapeContact):
             return np.zeros_like(nodes)
         return super().jkr_gap(nodes, radius)
 
-    @property
-    def _stiffness(self) -> float:
-        """Return the force per depth of the whole disc, for E* = 1 [beta]."""
-        if isinstance(self.body, Layer):
-            return float(on_layer.stiffness(np.array(self.shape.radius), self.body))
-        return 2 * self.shape.radius
-
     def relaxed_pull_off(self, edge: float) -> float:
         """Return the force [output unit] at the strength of the law on a contact of this radius.
 
@@ -366,7 +354,8 @@ class DiscContact(ShapeContact):
     def deepest(self, start: Start) -> float:
         """Return the depth [h0] of a start; at given force that of the whole disc."""
         if isinstance(start, AtForce):
-            return self.tabor * 1.5 * np.pi * start.force / self._stiffness
+            whole = indenter.stiffness(self.shape.radius, contact_modulus=1.0, body=self.body)
+            return self.tabor * 1.5 * np.pi * start.force / float(whole)
         return _DEEPEST if isinstance(start, AtRadius) else super().deepest(start)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
@@ -388,6 +377,3 @@ class DiscContact(ShapeContact):
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes, which end with the disc."""
         return settings.grading_to_end(self.zone, self.law, self.shape.radius, self.body)
-
-    def _jkr_depth(self, start: AtForce) -> float:
-        return self.deepest(start)
