@@ -91,7 +91,7 @@ def test_what_is_left_of_the_creep_bounds_what_the_depth_still_does():
     last = SimpleNamespace(left=0.2, values={"force": 1.0, "work": 2.0})
 
     def effects(left):
-        return preload._effects([last], SimpleNamespace(left=left, values=values), SOLID)
+        return preload._effects(last, SimpleNamespace(left=left, values=values), 0.1)
 
     values = {"force": 1.0 / 0.9, "work": 2.0 / 0.2}  # changed by 0.1 and 0.8 of themselves
     # 1.5 times the change, as what is left to what has crept in between; at most 5 times that rest

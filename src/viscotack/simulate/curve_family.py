@@ -246,12 +246,6 @@ class Pull:
         changed = replace(law, work_of_adhesion=factor * law.work_of_adhesion)
         return replace(self, pad=replace(self.pad, traction=changed))
 
-    def posed(self, start: AtDepth | AtForce) -> Problem:
-        """Return the problem of one pad; an elastic one without its spring."""
-        soft = self.shared + (0.0 if self.stiffness is None else 1 / self.stiffness)
-        spring = None if self.is_elastic or soft == 0 else 1 / soft
-        return replace(self.pad, protocol=Retraction(start, self.speed, stiffness=spring))
-
 
 # a pull, its yield and a dead load of one array need the same curves
 @lru_cache(maxsize=128)
@@ -265,7 +259,10 @@ def pad_curve(pull: Pull, start: AtDepth | AtForce) -> PadCurve:
     SimulationError
         If the simulation stops before its end.
     """
-    problem = pull.posed(start)
+    soft = pull.shared + (0.0 if pull.stiffness is None else 1 / pull.stiffness)
+    # an elastic pad is put behind its spring afterwards
+    spring = None if pull.is_elastic or soft == 0 else 1 / soft
+    problem = replace(pull.pad, protocol=Retraction(start, pull.speed, stiffness=spring))
     si = problem.scales()
     try:
         found = crack_contact(problem)
@@ -279,8 +276,12 @@ def pad_curve(pull: Pull, start: AtDepth | AtForce) -> PadCurve:
         peak = best.depth, best.force
         band, method = pull.accuracy, SIMULATION
     depth, force = found.depth * si.length, found.force * si.force
-    if peak[0] is not None and peak[1] is not None:
-        depth, force = _with_peak(depth, force, peak[0] * si.length, -peak[1] * si.force)
+    near = int(np.argmin(force))
+    if peak[0] is not None and peak[1] is not None and -peak[1] * si.force < force[near]:
+        # the tier interpolates its pull-off between the points of its curve
+        at = peak[0] * si.length
+        place = near + int(at <= depth[near])
+        depth, force = np.insert(depth, place, at), np.insert(force, place, -peak[1] * si.force)
     own = None if pull.is_elastic else pull.stiffness
     position = depth if own is None else depth + force / own
     # round-off and the detachment within a step must not move the plate back
@@ -292,15 +293,6 @@ def pad_curve(pull: Pull, start: AtDepth | AtForce) -> PadCurve:
         curve = curve.behind(pull.stiffness)
     radius = float(found.contact_radius[0] * si.radius)
     return PadCurve(curve, float(depth[0]), radius, float(band), method)
-
-
-def _with_peak(depth: Array, force: Array, at: float, least: float) -> tuple[Array, Array]:
-    """Insert the pull-off that the tier interpolates between the points of its curve."""
-    near = int(np.argmin(force))
-    if least >= force[near]:
-        return depth, force
-    place = near + int(at <= depth[near])
-    return np.insert(depth, place, at), np.insert(force, place, least)
 
 
 @dataclass(frozen=True, eq=False)
@@ -379,7 +371,13 @@ class Family:
 
     def _of_row(self, row: Sequence[PadCurve], start: float) -> Curve:
         if self.is_elastic:
-            return _cut(row[-1].curve, start)
+            curve = row[-1].curve
+            if start > curve.start + _ONE * (curve.start - curve.end):
+                raise InputError(f"a pad would start {start:.4g} m deep, beyond its curve")
+            later = curve.position < start
+            position = np.append(start, curve.position[later])
+            first = curve.at(np.array([start]))
+            return Curve(position, np.append(first, curve.force[later]), curve.lost)
         nodes = np.array([each.curve.start for each in row])
         weights = _weights(nodes, np.array([start]))[0]
         return _blend([each.curve for each in row], weights, start)
@@ -411,7 +409,11 @@ def family(
     """
     if not min(works) > 0:
         raise InputError(f"works of adhesion must be positive, got a factor of {min(works):.3g}")
-    nodes = nodes_between(min(works), max(works), _RATIO, _MOST_WORKS)
+    least, most = min(works), max(works)
+    count = int(np.ceil(np.log(most / least) / np.log(_RATIO))) + 1
+    nodes = np.geomspace(least, most, int(np.clip(count, 2, _MOST_WORKS)))
+    if most <= least * (1 + 1e-6):
+        nodes = np.array([least])
     middle = pad_curve(pull, AtForce(force))
     span = middle.curve.start - middle.curve.end
     low, high = min(rises), max(rises)
@@ -440,30 +442,12 @@ def family(
     return Family(nodes, tuple(rows), pull.is_elastic)
 
 
-def nodes_between(low: float, high: float, ratio: float, most: int) -> Array:
-    """Return values in geometric progression between which curves are interpolated."""
-    if high <= low * (1 + 1e-6):
-        return np.array([low])
-    count = int(np.ceil(np.log(high / low) / np.log(ratio))) + 1
-    return np.geomspace(low, high, int(np.clip(count, 2, most)))
-
-
 def _between(nodes: Array, value: float) -> tuple[int, float]:
     """Return the node below a value and its share of the way to the next one."""
     if nodes.size == 1:
         return 0, 0.0
     low = int(np.clip(np.searchsorted(nodes, value, side="right") - 1, 0, nodes.size - 2))
     return low, float((value - nodes[low]) / (nodes[low + 1] - nodes[low]))
-
-
-def _cut(curve: Curve, start: float) -> Curve:
-    """Return an elastic curve from a position on it."""
-    if start > curve.start + _ONE * (curve.start - curve.end):
-        raise InputError(f"a pad would start {start:.4g} m deep, beyond its curve")
-    later = curve.position < start
-    first = curve.at(np.array([start]))
-    position = np.append(start, curve.position[later])
-    return Curve(position, np.append(first, curve.force[later]), curve.lost)
 
 
 def _weights(nodes: Array, values: Array) -> Array:

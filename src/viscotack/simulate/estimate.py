@@ -8,6 +8,7 @@ smaller than the accuracy of the settings. The estimate therefore has a safety f
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from math import hypot
 
@@ -18,7 +19,7 @@ from viscotack.result import Outcome, Result
 from viscotack.result.cycles import Loop, loop_of, lost_in, time_held
 from viscotack.result.observables import PullOff, equal_peak, peaks, pull_off, work_to
 from viscotack.result.opening import between_steps, lost_beside, reach_of_fold
-from viscotack.result.parts import Span, move_numbers, moves_of, spans, waits
+from viscotack.result.parts import move_numbers, moves_of, spans, waits
 from viscotack.simulate.preload import Beginning
 
 # Ratio of the errors of the coarser run to those of the main run.
@@ -59,43 +60,29 @@ def estimated(
         coarse = companion() if beginning is None else beginning.light
     except (ValueError, TimeUp):  # no start or no time left: no estimate
         return result
-    errors = _of_end(result, coarse, beginning, travel, accuracy) or {}
+    errors = dict[str, float]()
+    held = [
+        waits(moves_of(each)[int(move_numbers(each)[-1])], "force") for each in (result, coarse)
+    ]
+    # without an estimate if there is no pull-off or no time held, or only one has it
+    with suppress(ValueError):
+        if all(held):
+            value, other = time_held(result), time_held(coarse)
+            errors["time"] = from_difference("time", abs(value - other) / value, accuracy)
+        elif not any(held):
+            found = pull_off(result)
+            alike = min(peaks(coarse), key=lambda peak: abs(peak.depth - found.depth))
+            errors = _of_pull_off(result, found, coarse, alike, travel, accuracy)
+    if beginning is not None and errors:
+        start = beginning.start
+        for name, more in (("force", start.force), ("work", start.work), ("depth", start.shift)):
+            errors[name] += more
+    if "force" in errors:
+        _add_branch(result, errors)
     loops = hysteresis_errors(result, coarse, accuracy)
     if loops is not None:
         errors["hysteresis"] = float(np.nanmax(loops))
     return replace(result, error_estimate=errors or None, hysteresis_errors=loops)
-
-
-def _of_end(
-    result: Result,
-    coarse: Result,
-    beginning: Beginning | None,
-    travel: float,
-    accuracy: float,
-) -> dict[str, float] | None:
-    """Return the errors of the pull-off, or of the time held, by name; None where one has none."""
-    if _holds(result) != _holds(coarse):
-        return None
-    try:
-        if _holds(result):
-            value, other = time_held(result), time_held(coarse)
-            estimate = {"time": from_difference("time", abs(value - other) / value, accuracy)}
-        else:
-            found = pull_off(result)
-            alike = min(peaks(coarse), key=lambda peak: abs(peak.depth - found.depth))
-            estimate = _of_pull_off(result, found, coarse, alike, travel, accuracy)
-    except ValueError:  # no pull-off, no time held
-        return None
-    if beginning is not None:
-        for name in estimate:
-            estimate[name] += getattr(beginning.start, _OF_START[name])
-    if "force" in estimate:
-        _add_branch(result, estimate)
-    return estimate
-
-
-# Attribute of `ShallowStart` with the effect of the start on each error.
-_OF_START = {"force": "force", "work": "work", "depth": "shift"}
 
 
 def _of_pull_off(
@@ -157,11 +144,6 @@ def _add_branch(result: Result, estimate: dict[str, float]) -> None:
     estimate["depth"] = max(estimate["depth"], abs(other.depth - found.depth))
 
 
-def _holds(result: Result) -> bool:
-    """Return whether a test ends with a held load, so that its error is that of the time."""
-    return waits(moves_of(result)[int(move_numbers(result)[-1])], "force")
-
-
 # Shares in the error: of the difference to the companion over what its errors exceed those of the
 # run by; of the energy that is missing after the cycle; of what moving between meshes took; and of
 # the hysteresis times the accuracy. Each alone is small by chance now and then.
@@ -179,22 +161,15 @@ def hysteresis_errors(result: Result, coarse: Result, accuracy: float) -> tuple[
         return None
     if all(loop is Loop.OPEN for loop in loops):
         return None
-    errors = []
-    for span, other, loop in zip(cycles, others, loops, strict=True):
-        lost = lost_in(result, span, loop)
-        differs = abs(lost - lost_in(coarse, other, loop))
-        error = _DIFFERENCE * differs / (COARSER - 1) + _missed(result, span)
-        error += _OF_LOSS * accuracy * abs(lost)
-        errors.append(error / max(abs(lost), np.finfo(float).tiny))
-    return tuple(float(error) for error in errors)
-
-
-def _missed(result: Result, span: Span) -> float:
-    """Return the shares of what the energies of a cycle miss, and of what the meshes took."""
-    energy = result.energy
+    errors, energy = [], result.energy
     assert energy is not None, "a simulation has its energies"
     spent = energy.elastic + energy.interface + energy.spring + energy.heat + energy.interface_heat
     missing = energy.drive - spent - energy.jumps - energy.transfer
-    ends = [span.first, span.last]
-    meshes = abs(float(np.diff(energy.transfer[ends])[0]))
-    return abs(float(np.diff(missing[ends])[0])) + _MESHES * meshes
+    for span, other, loop in zip(cycles, others, loops, strict=True):
+        lost, ends = lost_in(result, span, loop), [span.first, span.last]
+        differs = abs(lost - lost_in(coarse, other, loop))
+        error = _DIFFERENCE * differs / (COARSER - 1) + abs(float(np.diff(missing[ends])[0]))
+        error += _MESHES * abs(float(np.diff(energy.transfer[ends])[0]))
+        error += _OF_LOSS * accuracy * abs(lost)
+        errors.append(error / max(abs(lost), np.finfo(float).tiny))
+    return tuple(float(error) for error in errors)

@@ -27,16 +27,16 @@ long.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import log
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
-from viscotack.model.materials import Material
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import Apart, AtDepth
 from viscotack.model.traction import has_rest
@@ -74,20 +74,13 @@ class Beginning:
     light: Result
 
 
-@dataclass(frozen=True, eq=False)
-class _End:
-    """Pull-off of a coarse run from a depth: values, depth, time, and remaining creep."""
+class _End(NamedTuple):
+    """Pull-off of a coarse run from a depth: force and work, the creep left then, and its steps."""
 
     depth: float
-    values: Mapping[str, float]
-    place: float
-    time: float
+    values: dict[str, float]
     left: float
-    result: Result
-
-    @property
-    def steps(self) -> float:
-        return self.result.statistics["steps"]
+    steps: float
 
 
 def shallower(
@@ -114,85 +107,58 @@ def shallower(
     ValueError
         If the start cannot be replaced and is too deep for a direct simulation.
     """
-    asked = _asked(groups, contact)
+    # not after moves or without a retraction, for punches, other bodies than the half-space, shapes
+    # that may have several contacts at one depth, and interfaces that grow or age
+    known = isinstance(groups.geometry, Sphere | Cone | PowerLawProfile)
+    known &= isinstance(groups.body, HalfSpace) and not has_rest(groups.traction)
+    if not known or groups.moves or groups.rate is None or isinstance(groups.start, Apart):
+        return None
+    asked = contact.deepest(groups.start)
     if not asked > _DEEP:
         return None
     ends: list[_End] = []
     depth = _FIRST * contact.travel
     while depth <= _WORTH * asked and _LIGHT * _steps(ends, depth) <= settings.most_steps:
-        end = _ended(light, replace(groups, start=AtDepth(depth)), depth)
-        if end is not None:
-            effects = _effects(ends, end, groups.material)
-            start = ShallowStart(asked, depth, **effects, shift=_shift(groups, end, asked))
-            if _will_do(start, end, contact, settings):
-                return Beginning(start, end.result)
+        with suppress(InputError):  # there is no start or no pull-off
+            result = light(replace(groups, start=AtDepth(depth)))
+            found, work = pull_off(result), work_to_pull_off(result)
+            # The indentation that is left of the way before shifts the pull-off. A spring only
+            # makes the contact slower.
+            before = (asked - depth) / groups.rate
+            time = np.geomspace(found.time, found.time + before, _TIMES)
+            left = np.maximum(1 - np.asarray(groups.material.creep(time)), 0.0)
+            shift = groups.rate * float(np.sum(np.diff(time) * (left[1:] + left[:-1]) / 2))
+            values = {"force": found.force, "work": work}
+            end = _End(depth, values, float(left[0]), result.statistics["steps"])
+            effects = _effects(ends[-1] if ends else None, end, groups.material.modulus_ratio)
+            most = max(effects[name] / share for name, share in _SHARES.items())
+            far = max(_SHIFT * contact.travel, _SHIFT_FAR * abs(found.depth))
+            is_pressed = result.force[0] >= found.force
+            if is_pressed and most <= settings.accuracy and shift <= far:
+                return Beginning(ShallowStart(asked, depth, **effects, shift=shift), result)
             ends.append(end)
         depth *= _DEEPER
-    _check_length(ends, asked, settings)
-    return None
-
-
-def _asked(groups: Groups, contact: Contact) -> float:
-    """Return the approximate initial depth [h0] of a test, 0 if its start must not be replaced.
-
-    The start is not replaced for tests with moves before the retraction or without a retraction,
-    for punches, for bodies other than the half-space, for shapes that may have several contacts at
-    one depth, and for interfaces that grow or age.
-    """
-    if isinstance(groups.start, Apart):
-        return 0.0
-    known = isinstance(groups.geometry, Sphere | Cone | PowerLawProfile)
-    known &= isinstance(groups.body, HalfSpace)
-    if groups.moves or groups.rate is None or not known or has_rest(groups.traction):
-        return 0.0
-    return contact.deepest(groups.start)
-
-
-def _ended(light: Callable[[Groups], Result], groups: Groups, depth: float) -> _End | None:
-    """Run a coarse simulation from a depth; None if it has no start or no pull-off."""
-    try:
-        result = light(groups)
-        found, work = pull_off(result), work_to_pull_off(result)
-    except InputError:
+    needed = _LIGHT * _steps(ends, asked)
+    if needed <= settings.most_steps:
         return None
-    values = {"force": found.force, "work": work}
-    left = float(_left(groups.material, found.time))
-    return _End(depth, values, found.depth, found.time, left, result)
+    last, end = ends[-2:]
+    changes = {n: 100 * abs(v - last.values[n]) / abs(v) for n, v in end.values.items()}
+    raise InputError(
+        f"a march from a depth of {asked:.3g} h0 would take about {needed:.1g} steps, more than "
+        f"{settings.most_steps}, and a shallower start would not do: from {last.depth:.3g} to "
+        f"{end.depth:.3g} h0 the force still changes by {changes['force']:.2g} % and the work by "
+        f"{changes['work']:.2g} %, and {100 * end.left:.2g} % of the creep is left at the "
+        f"pull-off; start at {end.depth:.2g} h0, say, or retract more slowly"
+    )
 
 
-def _left(material: Material, time: float | npt.NDArray) -> npt.NDArray:
-    """Return the fraction of the creep that remains after a time."""
-    return np.maximum(1 - np.asarray(material.creep(time)), 0.0)
-
-
-def _will_do(start: ShallowStart, end: _End, contact: Contact, settings: Settings) -> bool:
-    """Return whether a march may begin there."""
-    pressed = end.result.force[0] >= end.values["force"]
-    shares = (start.force / _SHARES["force"], start.work / _SHARES["work"])
-    far = max(_SHIFT * contact.travel, _SHIFT_FAR * abs(end.place))
-    return pressed and max(shares) <= settings.accuracy and start.shift <= far
-
-
-def _shift(groups: Groups, end: _End, asked: float) -> float:
-    """Return by how much the indentation that is left of the way before shifts the pull-off [h0].
-
-    A spring only makes the contact slower.
-    """
-    assert groups.rate is not None
-    before = (asked - end.depth) / groups.rate
-    time = np.geomspace(end.time, end.time + before, _TIMES)
-    left = _left(groups.material, time)
-    return groups.rate * float(np.sum(np.diff(time) * (left[1:] + left[:-1]) / 2))
-
-
-def _effects(before: list[_End], end: _End, material: Material) -> dict[str, float]:
+def _effects(last: _End | None, end: _End, modulus_ratio: float) -> dict[str, float]:
     """Return by how much force and work may change from a depth on, relative."""
-    if material.modulus_ratio == 1:
+    if modulus_ratio == 1:
         return dict.fromkeys(_SHARES, 0.0)
-    if not before:
+    if last is None:
         return dict.fromkeys(_SHARES, 1.0)  # nothing is known
-    last, effects = before[-1], {}
-    lost = last.left - end.left
+    effects, lost = {}, last.left - end.left
     for name, value in end.values.items():
         change = abs(value - last.values[name]) / abs(value)
         fading = _SENSITIVE * end.left
@@ -209,19 +175,3 @@ def _steps(ends: list[_End], depth: float) -> float:
     last, end = ends[-2:]
     power = log(end.steps / last.steps) / log(end.depth / last.depth)
     return end.steps * (depth / end.depth) ** power
-
-
-def _check_length(ends: list[_End], asked: float, settings: Settings) -> None:
-    """Refuse a depth from which a march would take more steps than it may."""
-    needed = _LIGHT * _steps(ends, asked)
-    if needed <= settings.most_steps:
-        return
-    last, end = ends[-2:]
-    changes = {n: 100 * abs(v - last.values[n]) / abs(v) for n, v in end.values.items()}
-    raise InputError(
-        f"a march from a depth of {asked:.3g} h0 would take about {needed:.1g} steps, more than "
-        f"{settings.most_steps}, and a shallower start would not do: from {last.depth:.3g} to "
-        f"{end.depth:.3g} h0 the force still changes by {changes['force']:.2g} % and the work by "
-        f"{changes['work']:.2g} %, and {100 * end.left:.2g} % of the creep is left at the "
-        f"pull-off; start at {end.depth:.2g} h0, say, or retract more slowly"
-    )
