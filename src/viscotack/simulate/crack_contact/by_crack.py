@@ -38,7 +38,7 @@ from viscotack.model.traction import LennardJones, grows
 from viscotack.result.curve import shares
 from viscotack.result.cycles import Loop, returned, work_at_indenter
 from viscotack.result.opening import least_between
-from viscotack.result.parts import Span, all_moves, spans_of, waits
+from viscotack.result.parts import all_moves, spans_of, waits
 from viscotack.simulate.crack_contact.crack_problem import (
     LOAD,
     ROOT,
@@ -478,7 +478,11 @@ def _answer(
     pull_off = _pull_off(groups, series)
     at: dict[str, Any] = pull_off if pull_off is not None else dict.fromkeys(_AT_PULL_OFF)
     energy = float(at["amplification_at_pull_off"] or np.max(series["amplification"]))
-    interface = _interface_work(groups, crack, at)
+    # energy dissipated and stored by the interface at pull-off, over the work of adhesion
+    interface = 1.0
+    if (speed := at["crack_speed_at_pull_off"]) is not None:
+        unit = groups.tabor**2 * groups.material.time_unit
+        interface = float(crack.interface_work(speed * unit))
     if grows(groups.traction) and energy > _LAST * crack.largest:
         raise OutOfRange(
             f"the energy at the edge is {energy:.4g} times the work of adhesion; steady cracks "
@@ -496,13 +500,19 @@ def _answer(
             "pull more slowly, or simulate the problem"
         )
     band, inside, why = band_of(groups, energy / interface, effective, zones)
-    hysteresis, loop = _hysteresis(groups, series, detached)
+    force, depth, loop = series["force"], series["depth"], Loop.OPEN
+    if isinstance(groups.start, Apart) and detached:
+        loop = Loop.APART
+    elif groups.moves and returned(depth):
+        closed = groups.modulus_ratio >= 1 and returned(force)
+        loop = Loop.CLOSED if closed else Loop.DEPTH
     return CrackContact(
         problem=problem,
         **series,
         status=status,
         **at,
-        hysteresis=hysteresis,
+        # separated surfaces do not attract each other here, so no interface energy remains
+        hysteresis=None if loop is Loop.OPEN else work_at_indenter(depth, force),
         loop=loop,
         zones=zones,
         band=band,
@@ -528,14 +538,6 @@ def effective_tabor(groups: Groups, energy: Any, interface: Any) -> Any:
     bulk = np.maximum(np.maximum(energy, 1.0) / interface, 1.0)
     stronger = interface ** (q / (2 * q - 1))
     return groups.effective_tabor * stronger * bulk ** (-(q - 1) / (2 * q - 1))
-
-
-def _interface_work(groups: Groups, crack: SteadyCrack, at: dict[str, Any]) -> float:
-    """Energy dissipated and stored by the interface at pull-off, over the work of adhesion."""
-    speed = at["crack_speed_at_pull_off"]
-    if speed is None:
-        return 1.0
-    return float(crack.interface_work(speed * groups.tabor**2 * groups.material.time_unit))
 
 
 _AT_PULL_OFF = (
@@ -567,7 +569,8 @@ def _zones(
     if energy > _SLOW:
         # The steps of the radius may be too coarse. The energy of an edge that hardly moves grows
         # with the square of the drive's travel: it is above one half for a quarter of the time.
-        begun = max(series["time"][last], _begun(series))
+        before = np.flatnonzero(series["move"] < series["move"][-1])
+        begun = series["time"][max(last, before[-1] if before.size else 0)]
         loading = 0.25 * (at["time_at_pull_off"] - begun) / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
@@ -578,19 +581,21 @@ def _zones(
     return max(way, 0.0) / zone
 
 
-def _begun(series: dict[str, Any]) -> float:
-    """Time at which the last move began."""
-    before = np.flatnonzero(series["move"] < series["move"][-1])
-    return float(series["time"][before[-1]]) if before.size else 0.0
-
-
 def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
     """State at the largest tension of the last opening, interpolated between steps."""
     force, depth = series["force"], series["depth"]
     span = spans_of(groups, series["move"], depth, force)[-1]
     detached = not series["contact_radius"][-1] > 0
     low, run = -1, None
-    for pulled in _runs(groups, series, span):
+    # the steps of the opening, split at the dwells of the machine
+    waiting = np.array([waits(move) for move in all_moves(groups)])[series["move"]]
+    steps = np.arange(span.turn, span.last + 1 if span.opens else span.turn)
+    steps = steps[~waiting[steps] | (steps == span.turn)]
+    for pulled in np.split(steps, np.flatnonzero(np.diff(steps) > 1) + 1):
+        if not pulled.size:
+            continue
+        if pulled[0] != span.turn:  # after a dwell the curve continues from its end
+            pulled = np.append(pulled[0] - 1, pulled)
         i = int(pulled[np.argmin(force[pulled])])
         begins, ends = i == pulled[0] > span.turn, i == pulled[-1]
         pulls_off = not begins and (not ends or (i == span.last and detached))
@@ -629,34 +634,6 @@ def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
     values = (-at["force"], at["depth"], at["time"], at["contact_radius"])
     values = (*values, at["edge_speed"], at["amplification"], work)
     return dict(zip(_AT_PULL_OFF, values, strict=True))
-
-
-def _runs(groups: Groups, series: dict[str, Any], span: Span) -> list[npt.NDArray[np.intp]]:
-    """Return the steps of an opening, split at the dwells of the machine."""
-    waiting = np.array([waits(move) for move in all_moves(groups)])[series["move"]]
-    steps = np.arange(span.turn, span.last + 1 if span.opens else span.turn)
-    pulled = steps[~waiting[steps] | (steps == span.turn)]
-    runs = np.split(pulled, np.flatnonzero(np.diff(pulled) > 1) + 1)
-    # after a dwell the curve continues from its end
-    return [run if run[0] == span.turn else np.append(run[0] - 1, run) for run in runs if run.size]
-
-
-def _hysteresis(
-    groups: Groups, series: dict[str, Any], detached: bool
-) -> tuple[float | None, Loop]:
-    """Return the work of the indenter over a closed history, and how its loop closed.
-
-    Separated surfaces do not attract each other in this model, so no interface energy remains.
-    """
-    force, depth = series["force"], series["depth"]
-    if isinstance(groups.start, Apart) and detached:
-        loop = Loop.APART
-    elif groups.moves and returned(depth):
-        elastic = groups.modulus_ratio >= 1
-        loop = Loop.CLOSED if elastic and returned(force) else Loop.DEPTH
-    else:
-        return None, Loop.OPEN
-    return work_at_indenter(depth, force), loop
 
 
 _IN_SI = {

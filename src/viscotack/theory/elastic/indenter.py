@@ -111,10 +111,9 @@ def depth(
     >>> f"{depth(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
     '4.395 um'
     """
-    a, E, w = _checked(contact_radius, contact_modulus, work_of_adhesion)
-    if body != _HALF_SPACE:
-        return plain(_on(body).depth(a, shape, body, w / E))
-    return plain(half_space_depth(a, shape) - np.sqrt(2 * np.pi * a * (w / E)))
+    solid: Any = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    out = drawn(contact_radius, shape=shape, body=body, **solid)
+    return plain(bare_depth(contact_radius, shape=shape, body=body) - out)
 
 
 def drawn(

@@ -52,12 +52,6 @@ def drawn(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:
     return np.sqrt(4 * np.pi * a * length / K1)
 
 
-def depth(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:
-    """Return the depth [m] of a contact of this radius [m]."""
-    (_, K1), (_, M1) = _disc(a, shape, body)
-    return M1 / K1 - np.sqrt(4 * np.pi * a * length / K1)
-
-
 def force(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:
     """Return the force over the contact modulus [m^2] of a contact of this radius [m]."""
     (K, K1), (M, M1) = _disc(a, shape, body)

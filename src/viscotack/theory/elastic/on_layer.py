@@ -80,12 +80,6 @@ def drawn(a: npt.NDArray, shape: Any, body: Layer, length: float) -> npt.NDArray
     return np.sqrt(2 * np.pi * a * length) / _sums(a, shape, body)[0]
 
 
-def depth(a: npt.NDArray, shape: Any, body: Layer, length: float) -> npt.NDArray:
-    """Return the depth [m] of a contact of this radius [m]."""
-    disc, profile, _, _ = _sums(a, shape, body)
-    return (profile - np.sqrt(2 * np.pi * a * length)) / disc
-
-
 def force(a: npt.NDArray, shape: Any, body: Layer, length: float) -> npt.NDArray:
     """Return the force over the contact modulus [m^2] of a contact of this radius [m]."""
     disc, profile, K, M = _sums(a, shape, body)

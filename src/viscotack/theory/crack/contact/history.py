@@ -371,7 +371,9 @@ class Contact:
             moved = found.radius - state.radius
             if last and found.radius < min(_LEFT, state.radius) and drive.speed < 0:
                 found = found._replace(radius=0.0, force=0.0)
-            self._note(rows, found, number)
+            speed = -self._mu2 * found.rate
+            edge = self._opening if speed >= 0 else self._closing
+            rows.append((found, speed, edge.one(abs(speed)), number))
             gone = state.radius > 0 and found.radius == 0
             met = drive.end is not None and dt > 0 and _reached(found, drive)
             state = found
@@ -387,12 +389,6 @@ class Contact:
     def _drive(self, depth: float, force: float) -> float:
         return depth if self._stiffness is None else depth + force / self._stiffness
 
-    def _left(self, rate: float) -> float:
-        """Return the remaining fraction of the tension at a rate of the radius."""
-        if self._tension is None or rate >= 0:
-            return self._at_rest
-        return self._tension.one(log(-self._mu2 * rate))
-
     def _longest(self, drive: Drive, rest: float) -> float:
         """Return the longest step in what is left of a drive."""
         if drive.speed != 0:
@@ -400,11 +396,6 @@ class Contact:
         if not self._chain.times.size or rest < _FIRST * drive.duration:
             return rest
         return min(drive.duration / _WAIT, rest / _BEFORE_END)
-
-    def _note(self, rows: list[Any], now: _State, number: int) -> None:
-        speed = -self._mu2 * now.rate
-        edge = self._opening if speed >= 0 else self._closing
-        rows.append((now, speed, edge.one(abs(speed)), number))
 
     def _to_the_end(
         self, state: _State, drive: Drive, given: float, begin: float, dt: float, found: _State
@@ -514,7 +505,8 @@ class _Step:
         """Return the radius at the end of the step."""
         before = self._before.radius
         if before == 0:
-            return self._closed(0.0) if self._touches() else 0.0
+            out = 0.0 if self._control == "force" else float(self._out[0])
+            return self._closed(0.0) if self._value > out else 0.0
         depth, _, lag = self.at(before)
         opens = self._lift(before, depth, lag) > 1 + _EQUAL
         closes = self._jump(before, depth) < 1 - _EQUAL
@@ -569,11 +561,6 @@ class _Step:
         rate = ((1 + 2 * ratio) * mean - ratio * before.travel) / (1 + ratio)
         # a decelerating crack does not reverse
         return rate if rate * mean > 0 else 0.0
-
-    def _touches(self) -> bool:
-        if self._control == "force":
-            return self._value > 0
-        return self._value > float(self._out[0])
 
     def _opened(self, before: float) -> float:
         """Return the largest radius at which the energy equals that of an opening crack."""
@@ -650,7 +637,10 @@ class _Step:
         beside = np.array([beyond, behind])
         travel, rate = (radius - b) / self._dt, self.rate(radius)
         drive = self._value if self._control == "drive" else of._drive(depth, force)
-        left = of._left(rate)
+        # the fraction of the short-range tension that remains at this speed
+        left = of._at_rest
+        if of._tension is not None and rate < 0:
+            left = of._tension.one(log(-of._mu2 * rate))
         edge = (left, travel, self._dt, rate, float(np.sign(travel)) or before.way)
         return _State(time, drive, depth, force, radius, elastic, memory, beside, *edge)
 

@@ -179,7 +179,10 @@ class Receding(_Strong):
         """Return how the contact changes under a force [N]."""
         a, scales, chain = exp(state[0]), self.scales, self._chain
         energy, effective, part = self._loaded(force, a)
-        falls = self._speed(energy) / self._mu2
+        falls = 0.0  # of an edge at rest
+        if energy > 1 + _SLOWEST:
+            log_speed = float(np.interp(self._log(energy), self._gained, self._speeds))
+            falls = exp(log_speed) / self._mu2
         lag = (effective - state[1:]) / chain.times
         lift = float(self._profile.depth(a)) - effective
         # at constant force the effective depth falls as the contact shrinks
@@ -210,12 +213,6 @@ class Receding(_Strong):
 
     def _log(self, energy: float) -> float:
         return log(max(energy - 1, _TINY))
-
-    def _speed(self, energy: float) -> float:
-        """Return the speed of the crack at an energy, 0 at rest."""
-        if energy <= 1 + _SLOWEST:
-            return 0.0
-        return exp(float(np.interp(self._log(energy), self._gained, self._speeds)))
 
 
 class Elastic(_Strong):
@@ -263,11 +260,6 @@ class Elastic(_Strong):
         """Return the state, which is empty."""
         return np.zeros(0)
 
-    def _short(self, force: float) -> float:
-        P = force / self.scales.force
-        share = P**2 / (P**2 + _ONSET**2) if force < 0 else 0.0
-        return force / (1 + (self._strength - 1) * share)
-
     def radius(self, state: Array) -> float:
         """Return nan: the radius follows from the force."""
         return nan
@@ -282,7 +274,10 @@ class Elastic(_Strong):
 
     def flow(self, force: float, state: Array) -> Flow:
         """Return how the contact changes under a force [N]."""
-        compliance = float(np.interp(self._short(force), self._middle, self._compliance))
+        P = force / self.scales.force
+        share = P**2 / (P**2 + _ONSET**2) if force < 0 else 0.0
+        short = force / (1 + (self._strength - 1) * share)
+        compliance = float(np.interp(short, self._middle, self._compliance))
         return Flow(compliance, 0.0, state)
 
 
@@ -338,7 +333,10 @@ def pull_apart(
     """
     first, second = contacts
     if isinstance(first, Elastic) and isinstance(second, Elastic):
-        return _both_elastic(first, second)
+        # the one with the smaller pull-off force opens
+        forces = first.pull_off_force, second.pull_off_force
+        opened = -1 if forces[0] == forces[1] else int(forces[1] < forces[0])
+        return Pulled(opened, min(forces), nan, (1.0, 1.0), (nan, nan), nan)
     soft = 0.0 if stiffness is None else 1 / stiffness
     scale = max(abs(preload), first.scales.force, second.scales.force)
     natural = scale * (soft + first.softness + second.softness) / speed
@@ -377,13 +375,6 @@ def pull_apart(
     raise OutOfRange(
         "the equations of two steady cracks in series were not solved to a pull-off; simulate them"
     )
-
-
-def _both_elastic(first: Elastic, second: Elastic) -> Pulled:
-    """Return which of two elastic contacts opens: the one with the smaller pull-off force."""
-    forces = first.pull_off_force, second.pull_off_force
-    opened = -1 if forces[0] == forces[1] else int(forces[1] < forces[0])
-    return Pulled(opened, min(forces), nan, (1.0, 1.0), (nan, nan), nan)
 
 
 def _pulled(
