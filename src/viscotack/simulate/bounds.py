@@ -14,14 +14,7 @@ import numpy as np
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.model.problem import Groups
-from viscotack.model.protocol import (
-    Apart,
-    Approach,
-    AtRadius,
-    Move,
-    Retract,
-    end_of,
-)
+from viscotack.model.protocol import Apart, Approach, AtRadius, Move, Retract, end_of
 from viscotack.model.traction import ages, effective_range
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.contacts.punch import PunchContact

@@ -30,14 +30,7 @@ from viscotack.simulate.crack_contact.by_crack import (
 )
 from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
 from viscotack.theory import SteadyCrack, lennard_jones
-from viscotack.theory.crack.contact import (
-    Elastic,
-    Pulled,
-    Receding,
-    Scales,
-    profile_of,
-    pull_apart,
-)
+from viscotack.theory.crack.contact import Elastic, Pulled, Receding, Scales, profile_of, pull_apart
 from viscotack.theory.elastic.relaxed import contact_in_groups
 
 # Error of the table of elastic pull-off forces, relative to simulations.

@@ -18,11 +18,7 @@ from viscotack.model.problem import Case, Groups, Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.model.protocol import AtDepth, AtForce
 from viscotack.result import Outcome, Result
-from viscotack.simulate.crack_contact.by_crack import (
-    METHOD,
-    crack_contact,
-    too_short,
-)
+from viscotack.simulate.crack_contact.by_crack import METHOD, crack_contact, too_short
 from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
 from viscotack.simulate.sensitivities import changed_inputs, sensitivities_of
 from viscotack.simulate.settings import Settings

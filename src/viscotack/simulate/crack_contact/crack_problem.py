@@ -26,12 +26,7 @@ from viscotack.model.protocol import (
     end_of,
 )
 from viscotack.theory import lennard_jones
-from viscotack.theory.crack.contact import (
-    Drive,
-    Profile,
-    radius_at_depth,
-    radius_at_force,
-)
+from viscotack.theory.crack.contact import Drive, Profile, radius_at_depth, radius_at_force
 
 # R dg in 1.5 pi R dg, and beta in (pi R^2 dg/E0*)^(1/3).
 LOAD, ROOT = 1.5 * np.pi, np.pi ** (1 / 3)

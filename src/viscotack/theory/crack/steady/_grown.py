@@ -31,16 +31,7 @@ from viscotack.model.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
 from ._branch import STEP, walked
-from ._mesh import (
-    AHEAD,
-    AHEAD_FOR_ERROR,
-    FINE,
-    Mesh,
-    alone,
-    between,
-    curve,
-    stated,
-)
+from ._mesh import AHEAD, AHEAD_FOR_ERROR, FINE, Mesh, alone, between, curve, stated
 
 # Gamma - 1 of the first and the last computed crack, and largest number of cracks.
 _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
