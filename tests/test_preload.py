@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.simulate import DEFAULT_ACCURACY, Settings, preload
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.simulate import Settings, preload
 from viscotack.simulate.solver import contact_of
 
 pytestmark = pytest.mark.march

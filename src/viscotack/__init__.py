@@ -128,7 +128,7 @@ if TYPE_CHECKING:
     from viscotack.simulate import SimulationError as SimulationError
     from viscotack.simulate.crack_contact import CrackContact as CrackContact
     from viscotack.simulate.crack_contact import crack_contact as crack_contact
-    from viscotack.simulate.solving import solve as solve
+    from viscotack.simulate.solver import solve as solve
     from viscotack.units import parse as parse
 
     from . import campaign as campaign
@@ -163,7 +163,7 @@ _NAMES = {
     "model.problem.record": "to_dict from_dict run_id",
     "model.problem.case_file": "read_case",
     "simulate": "SimulationError",
-    "simulate.solving": "solve",
+    "simulate.solver": "solve",
     "simulate.crack_contact": "crack_contact CrackContact",
     "result": "Result Energies Event Outcome save load columns write_csv",
     "result.observables": (

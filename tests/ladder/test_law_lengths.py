@@ -8,7 +8,7 @@ from viscotack.model.protocol import AtDepth
 from viscotack.model.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.simulate import solve
-from viscotack.simulate.interface import AtNodes, OnPanels
+from viscotack.simulate.surface import AtNodes, OnPanels
 
 # strong and short, with a corner in its stiffness where it ends
 TABLE = Tabulated.of_points(

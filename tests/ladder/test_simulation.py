@@ -14,8 +14,8 @@ from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.geometry.layer import layer_influence
 from viscotack.model.materials import Modes
 from viscotack.simulate import Settings
+from viscotack.simulate.body import Memory, step
 from viscotack.simulate.contacts.sphere import ProfileContact, SphereContact
-from viscotack.simulate.memory import Memory, step
 from viscotack.simulate.surface import stiffness
 from viscotack.theory import bradley, hertz, jkr
 

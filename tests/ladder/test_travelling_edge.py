@@ -15,8 +15,8 @@ from viscotack.model.problem import Groups
 from viscotack.model.protocol import Apart, Approach, AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.simulate import Settings, march, solve
+from viscotack.simulate.body import Memory, step
 from viscotack.simulate.frame import Passage, Way
-from viscotack.simulate.memory import Memory, step
 
 MODES = Modes(instantaneous=0.1, weights=(0.3, 0.6), times=(0.05, 2.0), error=0.0)
 NODES = np.concatenate([np.linspace(0.0, 0.8, 40)[:-1], np.linspace(0.8, 1.2, 401), [1.5, 2.5]])

@@ -18,11 +18,12 @@ import scipy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.model.problem import RoughCase
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, Accuracy
 from viscotack.model.problem.nouns import known, own_nouns
 from viscotack.result import Outcome
 from viscotack.result.curve import curve
 from viscotack.result.observables import pull_off, summary
-from viscotack.simulate import DEFAULT_ACCURACY, Accuracy, solve
+from viscotack.simulate import solve
 from viscotack.simulate.rough import problem_of, pull, stickiness
 from viscotack.version import __version__
 

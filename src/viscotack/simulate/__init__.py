@@ -7,26 +7,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from viscotack.simulate.settings import DEFAULT_ACCURACY, Accuracy, Settings
-    from viscotack.simulate.solver import SimulationError
-    from viscotack.simulate.solving import has_start, solve
+    from viscotack.simulate.settings import Settings
+    from viscotack.simulate.solver import SimulationError, has_start, solve
 
 _HOMES = {
-    "DEFAULT_ACCURACY": "settings",
-    "Accuracy": "settings",
     "Settings": "settings",
     "SimulationError": "solver",
-    "has_start": "solving",
-    "solve": "solving",
+    "has_start": "solver",
+    "solve": "solver",
 }
-__all__ = [
-    "DEFAULT_ACCURACY",
-    "Accuracy",
-    "Settings",
-    "SimulationError",
-    "has_start",
-    "solve",
-]
+__all__ = ["Settings", "SimulationError", "has_start", "solve"]
 
 
 def __getattr__(name: str) -> Any:

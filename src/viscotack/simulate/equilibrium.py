@@ -25,9 +25,8 @@ from scipy.linalg import get_lapack_funcs
 from viscotack.clock import look
 from viscotack.errors import InputError
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.interface import Band, Faces, released, room
 from viscotack.simulate.machine import Hold
-from viscotack.simulate.surface import Surface
+from viscotack.simulate.surface import Band, Faces, Surface, released, room
 
 _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 

@@ -6,11 +6,11 @@ hardly changes in the frame of the crack. A step of length dt, in which the edge
 
 .. math:: e(r, \theta) = (1-\theta)\, e_0(r + \varphi s_0) + \theta\, e_1(r + \varphi s_1),
 
-with e the displacement that the pressure would cause in the relaxed solid (:mod:`.memory`), the
+with e the displacement that the pressure would cause in the relaxed solid (:mod:`.body`), the
 shifts :math:`s_0 = a_0 - a(\theta)` and :math:`s_1 = a_1 - a(\theta)` along the way
 :math:`a(\theta)` of the edge, a parabola through its last three places, and a :math:`\varphi` that
 is 1 around the edge and decays to 0 towards the centre and the rim. The scheme is consistent for
-any :math:`\varphi`; without travel it equals the step of :mod:`.memory`.
+any :math:`\varphi`; without travel it equals the step of :mod:`.body`.
 
 The old :math:`e_0` is a spline on the old nodes, which need not be those of the step. The new one
 is interpolated by the cubic through four nodes, so that the displacement at the end of the step is
@@ -36,9 +36,8 @@ from viscotack.clock import look
 from viscotack.model.materials import Modes
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.equilibrium import descend
-from viscotack.simulate.interface import Band, Faces, room
 from viscotack.simulate.machine import Hold
-from viscotack.simulate.surface import Surface
+from viscotack.simulate.surface import Band, Faces, Surface, room
 
 _getrf, _getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 

@@ -88,10 +88,9 @@ from scipy.optimize import brentq
 from viscotack.clock import look
 from viscotack.model.traction import Traction, ages, effective_range
 from viscotack.simulate.equilibrium import Balance, Elastic, factored, solved
-from viscotack.simulate.interface import Band, room
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.surface import Surface
+from viscotack.simulate.surface import Band, Surface, room
 
 # Newton's method for a step: maximum iterations, relative residual of the tensions, largest
 # relative closing of a gap per iteration, and relative change of speed below which the tangent is

@@ -13,9 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from viscotack.result import Event
-from viscotack.simulate.body import Trial
+from viscotack.simulate.body import Step, Trial, step
 from viscotack.simulate.history import Snapshot
-from viscotack.simulate.memory import Step, step
 from viscotack.simulate.mesh import Mesh
 from viscotack.simulate.steps import (
     Attempt,

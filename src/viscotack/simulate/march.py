@@ -20,13 +20,11 @@ import numpy as np
 from viscotack.clock import TimeUp
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
-from viscotack.simulate.body import Body
+from viscotack.simulate.body import Body, step
 from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.history import SMALLEST_ENERGY, EnergyTerms, History, Lowest, Snapshot
-from viscotack.simulate.interface import separated
 from viscotack.simulate.jumps import followed, shortest_step
 from viscotack.simulate.machine import Leg
-from viscotack.simulate.memory import step
 from viscotack.simulate.mesh import Grading, Mesh
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.steps import (
@@ -41,6 +39,7 @@ from viscotack.simulate.steps import (
     tried,
     weighed,
 )
+from viscotack.simulate.surface import separated
 from viscotack.simulate.travelling import ahead, travelled
 
 # Absolute tolerance within which a target depth, force or edge counts as reached, in its unit.

@@ -10,14 +10,14 @@ from viscotack.cards import card_of
 from viscotack.model.geometry import Body, Layer
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, Accuracy
 from viscotack.model.traction import Traction, softening
-from viscotack.simulate.interface import resolved
 from viscotack.simulate.mesh import EndedGrading, Grading
+from viscotack.simulate.surface import resolved
 
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
 # Numbers of nodes are stated for laws whose tension falls no more steeply than this.
 _SOFTENING = 1.2
-# A law with a step is averaged over panels (:mod:`.interface`). This factor of mesh refinement
+# A law with a step is averaged over panels (:mod:`.surface`). This factor of mesh refinement
 # keeps the nodes from pinning the edge. Number of zones that stay fine, as the law is zero past its
 # step.
 _FINEST, _STEP_ZONES = 8.0, 2.0

@@ -1,7 +1,7 @@
 """Solver state between steps, and the constant data of a run.
 
 **Step-size control: trial steps, their error measures and their acceptance.** A step is implicit
-and exact for a load linear in time (:mod:`.memory`), so its error is of second order in its length.
+and exact for a load linear in time (:mod:`.body`), so its error is of second order in its length.
 The attribute `strain` of an attempt is the squared ratio of its length to the allowed length. It is
 the largest of several criteria: deviation from linearity, change of force and depth, travel of the
 edge, and energy imbalance. The travel of the drive and the end of the leg are known in advance, and
@@ -16,12 +16,11 @@ from math import inf, ulp
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.simulate.body import Body, State, Trial
+from viscotack.simulate.body import Body, State, Step, Trial
 from viscotack.simulate.contacts.contact import Contact
 from viscotack.simulate.equilibrium import Balance
 from viscotack.simulate.history import EnergyTerms, History, Lowest, Profile, Snapshot
 from viscotack.simulate.machine import Hold, Leg
-from viscotack.simulate.memory import Step
 from viscotack.simulate.mesh import Mesh
 from viscotack.simulate.settings import Settings
 

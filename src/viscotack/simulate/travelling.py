@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
-from viscotack.simulate.body import Body, Passed, Rates, State
+from viscotack.simulate.body import Body, Memory, Passed, Rates, State, step
 from viscotack.simulate.frame import (
     Balancing,
     Found,
@@ -28,9 +28,7 @@ from viscotack.simulate.frame import (
     farthest,
     widths,
 )
-from viscotack.simulate.interface import least_gap, room
 from viscotack.simulate.machine import Leg
-from viscotack.simulate.memory import Memory, step
 from viscotack.simulate.mesh import Mesh
 from viscotack.simulate.steps import (
     Attempt,
@@ -42,7 +40,7 @@ from viscotack.simulate.steps import (
     lost,
     opening,
 )
-from viscotack.simulate.surface import Surface
+from viscotack.simulate.surface import Surface, least_gap, room
 
 # Smallest expected travel, as a fraction of the zone, for a step in this frame.
 _LEAST_TRAVEL = 0.03

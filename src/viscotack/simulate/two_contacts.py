@@ -24,12 +24,11 @@ from math import inf, log
 from typing import NamedTuple
 
 from viscotack.clock import TimeUp
+from viscotack.simulate.body import step
 from viscotack.simulate.history import History
-from viscotack.simulate.interface import separated
 from viscotack.simulate.jumps import followed
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.march import Part, begun_run, narrowed
-from viscotack.simulate.memory import step
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.steps import (
     UNBALANCED_CUT,
@@ -43,6 +42,7 @@ from viscotack.simulate.steps import (
     tried,
     weighed,
 )
+from viscotack.simulate.surface import separated
 from viscotack.simulate.travelling import ahead, travelled
 
 # Forces count as equal within this fraction of their scale; most trials of a step; a step whose

@@ -23,11 +23,10 @@ from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.contacts.contact import Relaxed
 from viscotack.simulate.contacts.revolution import depth_where
 from viscotack.simulate.equilibrium import check_open, descend
-from viscotack.simulate.interface import interface
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.mesh import Grading
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.surface import Surface, relaxed_stiffness
+from viscotack.simulate.surface import Surface, interface, relaxed_stiffness
 
 # Number of nodes used to evaluate the compliance of a body that is not a layer.
 _COARSE = 33

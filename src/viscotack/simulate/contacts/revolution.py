@@ -36,11 +36,10 @@ from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.contacts.contact import Relaxed
 from viscotack.simulate.equilibrium import ClosedGap, check_open, descend
-from viscotack.simulate.interface import interface, least_gap
 from viscotack.simulate.machine import Hold
 from viscotack.simulate.mesh import Grading
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.surface import Surface, flank_share, relaxed_stiffness
+from viscotack.simulate.surface import Surface, flank_share, interface, least_gap, relaxed_stiffness
 from viscotack.theory.elastic import indenter
 
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.

@@ -27,10 +27,9 @@ from viscotack.files.archive import read_arrays
 from viscotack.files.whole import writing_whole
 from viscotack.result import Event
 from viscotack.simulate.body import Rates
-from viscotack.simulate.grid.body import GridMemory, GridState
+from viscotack.simulate.grid.body import Fixed, Frame, GridMemory, GridRun, GridState
 from viscotack.simulate.grid.descent import Found
 from viscotack.simulate.grid.plane import Plane, on_host
-from viscotack.simulate.grid.recorded import Fixed, Frame, GridRun
 from viscotack.simulate.history import EnergyTerms, Lowest, Snapshot
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.steps import MarchState

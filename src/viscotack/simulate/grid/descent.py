@@ -38,8 +38,8 @@ from viscotack.model.traction import Traction, effective_range
 from viscotack.model.traction.law import energy_and_traction
 from viscotack.simulate.equilibrium import GONE
 from viscotack.simulate.grid.plane import Plane
-from viscotack.simulate.interface import least_gap, released, room
 from viscotack.simulate.machine import Hold
+from viscotack.simulate.surface import least_gap, released, room
 
 # Residual of conjugate gradients relative to that of Newton's method, and their largest number.
 _INNER, _MOST_INNER = 0.03, 300

@@ -12,11 +12,10 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Start
-from viscotack.simulate.grid.body import GridBody
+from viscotack.simulate.grid.body import Fixed, Frames, GridBody, GridRun
 from viscotack.simulate.grid.checkpoint import Checkpoint, continued, run_arrays
 from viscotack.simulate.grid.descent import Found, equilibrium
 from viscotack.simulate.grid.map_contact import MapContact
-from viscotack.simulate.grid.recorded import Fixed, Frames, GridRun
 from viscotack.simulate.history import SMALLEST_ENERGY, EnergyTerms, History, Lowest
 from viscotack.simulate.machine import Hold, Leg
 from viscotack.simulate.march import through

@@ -23,11 +23,11 @@ from viscotack.model.traction import Tabulated
 from viscotack.result import Event, Outcome
 from viscotack.simulate.bounds import check_clock
 from viscotack.simulate.estimate import COARSER
+from viscotack.simulate.grid.body import Frame, GridRun
 from viscotack.simulate.grid.checkpoint import EVERY, Checkpoint, found_arrays, found_of
 from viscotack.simulate.grid.descent import Found
 from viscotack.simulate.grid.map_contact import MapContact
 from viscotack.simulate.grid.plane import Device, Plane, memory
-from viscotack.simulate.grid.recorded import Frame, GridRun
 from viscotack.simulate.grid.run import march_on_grid, relaxed
 from viscotack.simulate.machine import legs_of, longest_time, reached, spring_travel
 from viscotack.simulate.settings import Settings
