@@ -18,7 +18,7 @@ from viscotack import InputError
 from viscotack.app.cli import main
 from viscotack.app.operations import ask, operation
 from viscotack.app.operations.options import Contact, Rows, flag_of, option_of
-from viscotack.app.operations.parts.tables import plain
+from viscotack.app.operations.request import plain
 from viscotack.files.toml import toml_value
 
 # What two runs of one question do not share.

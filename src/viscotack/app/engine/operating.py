@@ -7,8 +7,16 @@ from collections.abc import Callable, Sequence
 from contextlib import chdir
 from typing import Any
 
-from viscotack.app.operations.parts.tables import plain
-from viscotack.app.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
+from viscotack.app.operations.request import (
+    DRAWN,
+    WORDS,
+    Answer,
+    Caller,
+    Request,
+    answered,
+    plain,
+    write,
+)
 from viscotack.errors import InputError
 
 
@@ -73,7 +81,7 @@ def _beside(kind: type[Request], answer: Answer, wanted: frozenset[str]) -> dict
         if output.name in answer.pictures:
             answer.pictures[output.name]().savefig(stream, format="svg")
         elif output.name in answer.files:
-            answer.files[output.name](stream)
+            write(answer.files[output.name], stream)
         else:
             continue
         content = stream.getvalue()

@@ -46,8 +46,6 @@ class OfArray(Request):
         from viscotack.design.arrays import array_yield, holding, preload_after, pull_array
         from viscotack.plot.design import draw_array
 
-        from .parts.tables import rows_as_csv
-
         file = caller.file(self.file)
         stated = read_array(file, also=caller.also, beside=caller.within(file).file)
         how = self.values("accuracy", "time_limit")
@@ -72,7 +70,7 @@ class OfArray(Request):
             found,
             data=lambda: record | {"pads": pads},
             words=lambda: _shown(found, held, record),
-            files={"csv": rows_as_csv(curve), "pads": rows_as_csv(pads)},
+            files={"csv": curve, "pads": pads},
             pictures={"plot": lambda: draw_array(array, found, load=load)},
         )
 

@@ -11,7 +11,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from .flags import INDENTERS
 from .options import Output, binary_file, contact, csv_file, number, option, picture
 from .parts.record_words import read, rows_of
-from .request import Answer, Caller, Request
+from .request import Answer, Caller, Content, Request, write
 from .simulate import Accuracy, Limit
 
 if TYPE_CHECKING:
@@ -84,8 +84,6 @@ class Control(Request):
         from viscotack.files.whole import write_whole
         from viscotack.plot.design import draw_control
 
-        from .parts.tables import rows_as_csv
-
         if self.wanted is None and "ticks" in caller.wants:
             raise InputError("ticks is of a release; give wanted")
         stated = self.stated(caller)
@@ -104,15 +102,15 @@ class Control(Request):
             release = Release(table, self.wanted, *limits)
             released = let_go(problem, release, **self.values("accuracy", "time_limit"))
         speed = None if release is None else release.speed
-        files = {
+        files: dict[str, Content] = {
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
             "fmu": lambda to: write_whole(to, fmu(table, self.name)),
-            "csv": rows_as_csv(_rows(table)),
-            "forces": lambda to: rows_as_csv(_forces(table))(to),
+            "csv": _rows(table),
+            "forces": lambda to: write(_forces(table), to),
         }
         if released is not None:
             names = ("time_s", "drive_m", "depth_m", "force_N", "drive_speed_m_per_s")
-            files["ticks"] = rows_as_csv(rows_of(read(released, *names)))
+            files["ticks"] = read(released, *names)
         return Answer(
             table if released is None else (table, released),
             data=lambda: _record(table, released, speed),

@@ -49,8 +49,6 @@ class OfDesign(Request):
         from viscotack.design import find_design, read_design
         from viscotack.plot.design import draw_design, draw_front
 
-        from .parts.tables import rows_as_csv
-
         file = caller.file(self.file)
         stated = read_design(file, also=caller.also, beside=caller.within(file).file)
         found = find_design(
@@ -69,7 +67,7 @@ class OfDesign(Request):
             found,
             data=lambda: _record(found, rows, front) | {"cautions": warned},
             words=lambda: _shown(found, rows, warned),
-            files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
+            files={"csv": rows, "front": front},
             pictures={
                 "plot": lambda: draw_design(found, stated),
                 "trade": lambda: draw_front(found),

@@ -36,8 +36,6 @@ class ExportContact(Request):
         """Reduce the contact and write it."""
         from viscotack.design.control import reduced_contact, reduced_header
 
-        from .parts.tables import as_text
-
         stated = self.stated(caller)
         problem: Any = stated.problem
         found = reduced_contact(problem)
@@ -56,6 +54,6 @@ class ExportContact(Request):
             found,
             data=lambda: record | {"text": text},
             words=lambda: shown if "output" in caller.wants else text.rstrip("\n"),
-            files={"output": as_text(lambda: text)},
+            files={"output": text},
             notes=stated.notes,
         )

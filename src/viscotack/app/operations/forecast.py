@@ -113,14 +113,12 @@ class Forecast(Wish):
         """Fit the series of the study and forecast from it."""
         from viscotack.plot.interface import draw_rate_series
 
-        from .parts.tables import rows_as_csv
-
         found, forecast = _forecast(self, caller, IdentifyRates, IdentifyEdge)
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
             data=lambda: _record(found.fit, forecast, rows),
-            files={"csv": rows_as_csv(rows)},
+            files={"csv": rows},
             pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
             notes=refusals(found.survey),
         )
@@ -140,14 +138,13 @@ class Report(Wish):
     def answer(self, caller: Caller) -> Answer:
         """Fit, forecast and render the page."""
         from .parts.report import page
-        from .parts.tables import as_text
 
         found, forecast = _forecast(self, caller, IdentifyRates)
         return Answer(
             (found, forecast),
             data=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
             words=lambda: {"words": [*found.fit.words, *forecast.words]},
-            files={"output": as_text(lambda: page(found, forecast))},
+            files={"output": page(found, forecast)},
             notes=refusals(found.survey),
         )
 

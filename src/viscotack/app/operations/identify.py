@@ -439,8 +439,6 @@ class IdentifyCurves(Rig):
         from viscotack.identify import fit_curves, group_curves
         from viscotack.plot.interface import draw_curves
 
-        from .parts.tables import rows_as_csv
-
         survey = self.survey(caller)
         fits, refused = fit_curves(
             survey.cycles,
@@ -461,7 +459,7 @@ class IdentifyCurves(Rig):
                 "refused": refused,
             },
             words=lambda: {"model": self.model, "repeats": means},
-            files={"csv": rows_as_csv(rows), "repeats": rows_as_csv(means)},
+            files={"csv": rows, "repeats": means},
             pictures={"plot": lambda: draw_curves(groups)},
             notes=(*refusals(survey), *(f"refused: {why}" for why in refused)),
         )

@@ -319,8 +319,6 @@ class ExportMaterial(_Converted):
         """Make the series and write it as the program has it."""
         from viscotack.model.materials.exchange import Units, exported
 
-        from .parts.tables import as_text
-
         passport = passport_of(self.passport, caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
@@ -347,7 +345,7 @@ class ExportMaterial(_Converted):
                 "angular_frequencies_rad_s": [low, high],
             },
             words=lambda: "" if "output" in caller.wants else text.rstrip("\n"),
-            files={"output": as_text(lambda: text)},
+            files={"output": text},
         )
 
 

@@ -81,8 +81,6 @@ class NextTest(Request):
         from viscotack.identify.ranked_tests import INTERFACE
         from viscotack.plot.interface import draw_next_tests
 
-        from .parts.tables import rows_as_csv
-
         candidates = [
             Trial(v, load, radius, dwell, self.approach_speed)
             for v, load, radius, dwell in product(
@@ -120,7 +118,7 @@ class NextTest(Request):
             found,
             data=lambda: record,
             words=lambda: record | {"tests": rows[:_SHOWN]},
-            files={"csv": rows_as_csv(rows)},
+            files={"csv": rows},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),
         )

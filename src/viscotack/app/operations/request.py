@@ -7,7 +7,7 @@ through the caller.
 
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from inspect import cleandoc
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic.fields import FieldInfo
-from pydantic_core import PydanticUndefined
+from pydantic_core import PydanticUndefined, to_jsonable_python
 
 from viscotack.errors import TOO_LARGE, InputError, wrong_value
 
@@ -30,11 +30,10 @@ if TYPE_CHECKING:
 
 # Rows of a table that an operation keeps in memory.
 _MOST_ROWS = 100_000
-# Values of options that were not given.
-_LEFT_OUT: tuple[Any, ...] = (None, "", [], ())
-
 
 Told = Mapping[str, Any]
+# Content of a file: text, a table of columns or of rows with the same keys, or what writes it.
+Content = str | Mapping[str, Any] | Sequence[Mapping[str, Any]] | Callable[["Target"], None]
 # Outputs besides files that HTTP and the page may request of every answer.
 WORDS, DRAWN = "words", "drawn"
 
@@ -55,7 +54,8 @@ class Answer:
     units : mapping
         Units of dimensionless numbers of the record by name, for the text.
     files : mapping
-        Name of an output -> function that writes it to a target.
+        Name of an output -> its content: text, columns or rows of a table, or a function that
+        writes it to a target.
     pictures : mapping
         Name of an output -> function that returns a figure.
     drawn : callable, optional
@@ -70,7 +70,7 @@ class Answer:
     data: Callable[[], Any]
     words: Callable[[], Any] | None = None
     units: Mapping[str, str] = field(default_factory=dict)
-    files: Mapping[str, Callable[["Target"], None]] = field(default_factory=dict)
+    files: Mapping[str, Content] = field(default_factory=dict)
     pictures: Mapping[str, Callable[[], Any]] = field(default_factory=dict)
     drawn: Callable[[], dict[str, Any]] | None = None
     notes: tuple[str, ...] = ()
@@ -78,18 +78,47 @@ class Answer:
 
     def record(self) -> Any:
         """Return the record as plain data, as printed by ``--json`` and returned over HTTP."""
-        from viscotack.app.operations.parts.tables import plain
-
         return plain(self.data())
 
     def __str__(self) -> str:
         """Return the text for the terminal."""
-        from viscotack.app.operations.parts.tables import plain
-
         from .parts.record_words import record_words
 
         shown = self.data() if self.words is None else self.words()
         return shown if isinstance(shown, str) else record_words(plain(shown), self.units)
+
+
+def write(content: Content, target: "Target") -> None:
+    """Write the content of a file, whole or not at all."""
+    from viscotack.files.text import write_table
+    from viscotack.files.whole import write_whole
+
+    if callable(content):
+        content(target)
+    elif isinstance(content, str):
+        write_whole(target, content.encode())
+    else:
+        is_rows = not isinstance(content, Mapping)
+        write_table(columns_of(content) if is_rows else content, target)
+
+
+def columns_of(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
+    """Return rows as columns, those of the first row."""
+    if not rows:
+        raise InputError("there are no rows to write")
+    return {name: [row.get(name) for row in rows] for name in rows[0]}
+
+
+def plain(value: Any) -> Any:
+    """Convert a value to JSON types: arrays to lists, objects to tables, NaN and infinity to None.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> plain({"force": np.array([1.0, np.nan]), "steps": np.int64(3)})
+    {'force': [1.0, None], 'steps': 3}
+    """
+    return to_jsonable_python(value, inf_nan_mode="null", fallback=lambda other: other.tolist())
 
 
 def harmless_name(name: str) -> str:

@@ -9,7 +9,7 @@ from viscotack.errors import InputError
 
 from .options import binary_file, csv_file, number, picture
 from .parts.rig import Rig, refusals
-from .request import Answer, Caller
+from .request import Answer, Caller, write
 
 _MOST = 1500  # points of a curve on the page
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
@@ -76,7 +76,6 @@ class ReadTests(Rig, ShiftLaw):
             series_rows,
             tests_record,
         )
-        from .parts.tables import rows_as_csv
 
         found = self.survey(caller)
         law = self.referred(caller)
@@ -95,9 +94,9 @@ class ReadTests(Rig, ShiftLaw):
             data=lambda: tests_record(found, table, self.radius, law),
             words=lambda: _shown(tests_record(found, table, self.radius, law)),
             files={
-                "csv": rows_as_csv(rows),
-                "repeats": rows_as_csv(repeats),
-                "curves": lambda target: rows_as_csv(curve_rows(found.cycles))(target),
+                "csv": rows,
+                "repeats": repeats,
+                "curves": lambda target: write(curve_rows(found.cycles), target),
                 "xlsx": as_workbook(sheets),
             },
             pictures={"plot": lambda: draw_tests(found.cycles, shift=law)},

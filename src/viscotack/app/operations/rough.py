@@ -7,7 +7,6 @@ from typing import Any, ClassVar, Literal
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .options import binary_file, csv_file, file_name, option, picture, switch
-from .parts.tables import rows_as_csv
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
@@ -95,7 +94,7 @@ class OfRough(Request):
             data=lambda: found.summary | about,
             words=lambda: _shown(found, about),
             files={
-                "csv": rows_as_csv(found.rows()),
+                "csv": found.rows(),
                 "maps": found.save_maps,
                 "film": lambda target: film_of_pull(found, target),
                 "movie": lambda target: film_of_pull(found, target, ".mp4"),

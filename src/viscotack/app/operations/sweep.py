@@ -62,7 +62,6 @@ class Sweep(Request):
         from viscotack.model.problem.changes import changes_of
 
         from .parts.predict_table import answered_rows, shown_rows
-        from .parts.tables import rows_as_csv
 
         stated, cases = self.stated(caller), caller.rows(self.cases)
         rough = isinstance(stated.problem, RoughCase)
@@ -91,7 +90,7 @@ class Sweep(Request):
             data=lambda: {"rows": found, "failed": failed},
             words=lambda: {"rows": shown_rows(changes, found, "reason"), "failed": failed},
             units={} if rough else units_of(stated.problem.outputs),
-            files={"csv": rows_as_csv(_flat(cases, found))},
+            files={"csv": _flat(cases, found)},
             notes=(*stated.notes, *changes.notes, *warnings),
             status=_SOME_FAILED if failed else 0,
         )
@@ -99,7 +98,7 @@ class Sweep(Request):
 
 def _row(kind: "Kind", inputs: dict[str, float], settings: "CaseSettings") -> dict[str, Any]:
     """Return the row of a case: inputs, results, and the reason if it failed."""
-    from viscotack.app.operations.parts.tables import plain
+    from viscotack.app.operations.request import plain
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
     from viscotack.model.problem.record import run_id

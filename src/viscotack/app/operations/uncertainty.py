@@ -93,8 +93,6 @@ class OfUncertainty(Request):
         from viscotack.plot.prediction import draw_uncertainty
         from viscotack.prediction.uncertainty import uncertainty
 
-        from .parts.tables import rows_as_csv
-
         deviations = dict(self.scatter)
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
@@ -123,7 +121,7 @@ class OfUncertainty(Request):
             found,
             data=lambda: _record(found, rows, unit),
             words=lambda: _shown(found, rows, force.words, unit),
-            files={"csv": rows_as_csv(rows)},
+            files={"csv": rows},
             pictures={"plot": lambda: draw_uncertainty(found)},
             notes=notes,
         )

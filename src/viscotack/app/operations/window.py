@@ -49,8 +49,6 @@ class OfWindow(Request):
         from viscotack.design.window import window
         from viscotack.plot.design import draw_window
 
-        from .parts.tables import rows_as_csv
-
         file = caller.file(self.file)
         stated = read_window(file, also=caller.also, beside=caller.within(file).file)
         maps = []
@@ -79,8 +77,8 @@ class OfWindow(Request):
             data=lambda: {"cells": cells, "critical_speeds": critical},
             words=lambda: _shown(cells, critical),
             files={
-                "csv": rows_as_csv(cells, columns),
-                "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
+                "csv": {name: [row[name] for row in cells] for name in columns},
+                "critical": {n: [row[n] for row in critical] for n in [*first, *_CRITICAL]},
             },
             pictures={"plot": lambda: draw_window(*maps, titles=[_title(x) for x in stated])},
         )

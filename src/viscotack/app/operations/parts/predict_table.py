@@ -10,7 +10,6 @@ import numpy as np
 from viscotack.campaign.listed import EMPTY, read_words
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.files.text import write_table
 from viscotack.files.whole import Target
 from viscotack.model.problem.changes import Changes, changes_of
 from viscotack.model.problem.kinds import plain_heading
@@ -26,10 +25,10 @@ from viscotack.prediction.table import (
 )
 from viscotack.units import is_number
 
-from ..request import Answer, Told
+from ..request import Answer, Content, Told
 from ..statement import Statement
 from .record_words import units_of
-from .tables import Writer, write_workbook
+from .tables import write_workbook
 
 Rows = Sequence[Mapping[str, Any]]
 Tell = Callable[[Told], None]
@@ -225,8 +224,8 @@ def _refuse_answered(where: Any, headings: Mapping[str, Any], answers: Sequence[
         )
 
 
-def _files(table: Mapping[str, Any]) -> dict[str, Writer]:
-    """Return the writers of the columns of a table."""
+def _files(table: Mapping[str, Any]) -> dict[str, Content]:
+    """Return the columns of a table, for CSV and for a workbook."""
 
     def in_workbook(target: Target) -> None:
         columns = {n: [_in_sheet(x) for x in np.asarray(v, object)] for n, v in table.items()}
@@ -234,7 +233,7 @@ def _files(table: Mapping[str, Any]) -> dict[str, Writer]:
             raise InputError("the table has more rows than a sheet can have; write csv")
         write_workbook({"predictions": columns}, target)
 
-    return {"csv": lambda target: write_table(table, target), "xlsx": in_workbook}
+    return {"csv": table, "xlsx": in_workbook}
 
 
 def _in_sheet(value: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Outputs: rows as CSV or as an XLSX workbook with units in the headings, text, plain data."""
+"""Rows as an XLSX workbook with units in the headings, and the numbers of a drawn curve."""
 
 import io
 import re
@@ -7,42 +7,13 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic_core import to_jsonable_python
 
 from viscotack.app.operations.parts.record_words import quantity_of, spelled
 from viscotack.errors import InputError, install_command
-from viscotack.files.text import write_table
 from viscotack.units import prefixed
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
-
-Writer = Callable[["Target"], None]
-
-
-def rows_as_csv(rows: Sequence[dict[str, Any]], columns: Sequence[str] = ()) -> Writer:
-    """Return a function that writes rows with the same keys as a CSV table with a header.
-
-    The columns are the keys of the first row; a table that may be empty needs them.
-    """
-
-    def write(target: "Target") -> None:
-        names = columns or list(rows[0])
-        write_table({name: [row.get(name) for row in rows] for name in names}, target)
-
-    return write
-
-
-def as_text(text: Callable[[], str]) -> Writer:
-    """Return a function that creates and writes a text."""
-
-    def write(target: "Target") -> None:
-        from viscotack.files.whole import write_whole
-
-        write_whole(target, text().encode())
-
-    return write
-
 
 Rows = Sequence[Mapping[str, Any]]
 _WIDEST = 60  # characters of a column
@@ -50,7 +21,7 @@ _WIDEST = 60  # characters of a column
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
 
-def as_workbook(sheets: Mapping[str, Rows]) -> Writer:
+def as_workbook(sheets: Mapping[str, Rows]) -> Callable[["Target"], None]:
     """Return a function that writes a workbook with a sheet for each table that has rows.
 
     Numbers are in SI; a column whose name ends with a unit is divided by the prefix of its median,
@@ -126,17 +97,6 @@ def _size(columns: Mapping[str, list[Any]], quantity: str) -> float:
 
 # What a curve is drawn from needs no more digits, and every one of them is sent.
 _DRAWN = 7
-
-
-def plain(value: Any) -> Any:
-    """Convert a value to JSON types: arrays to lists, objects to tables, NaN and infinity to None.
-
-    Examples
-    --------
-    >>> plain({"force": np.array([1.0, np.nan]), "steps": np.int64(3)})
-    {'force': [1.0, None], 'steps': 3}
-    """
-    return to_jsonable_python(value, inf_nan_mode="null", fallback=lambda other: other.tolist())
 
 
 def drawn(values: Any) -> list[float | None]:

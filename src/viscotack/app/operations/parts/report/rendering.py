@@ -18,9 +18,9 @@ from viscotack.model.geometry import Layer
 from viscotack.model.materials.passport_words import in_words
 from viscotack.version import __version__
 
+from ...request import Content, write
 from ..record_words import cells_of, quantities, read
 from ..records import conditions, cycle_row, forecast_rows, rates_record, repeat_rows, series_record
-from ..tables import Writer, rows_as_csv
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -146,12 +146,12 @@ def _tables(
         "repeats": repeat_rows(repeats, radius),
         "forecast": forecast_rows(forecast),
     }
-    return [(name, _link(rows_as_csv(rows))) for name, rows in tables.items()]
+    return [(name, _link(rows)) for name, rows in tables.items()]
 
 
-def _link(write: Writer) -> str:
+def _link(content: Content) -> str:
     stream = io.BytesIO()
-    write(stream)
+    write(content, stream)
     return f"data:text/csv;base64,{b64encode(stream.getvalue()).decode()}"
 
 
