@@ -19,7 +19,7 @@ from viscotack.app.operations.options import contact, option
 from viscotack.app.operations.parts.solid import EXAMPLES, FIRST, library
 from viscotack.app.operations.parts.tables import drawn
 from viscotack.app.operations.request import Answer, Caller, Request
-from viscotack.app.operations.theory_punch import pad_of
+from viscotack.app.operations.theory import pad_of
 from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError, OutOfRange
 from viscotack.files.toml import parse_toml
@@ -197,7 +197,7 @@ class Forms(Request):
     def answer(self, caller: Caller) -> Answer:
         """Read the cards of all nouns."""
         more = {"materials": library(), "examples": EXAMPLES, "version": __version__}
-        return Answer(None, data=lambda: forms(caller.also) | more)
+        return Answer(None, data=forms(caller.also) | more)
 
 
 class CaseFile(Request):
@@ -218,7 +218,7 @@ class CaseFile(Request):
                 x if isinstance(x, str) else " ".join(map(str, chain(*x.items()))) for x in moves
             )
             tables["protocol"]["moves"] = [words.replace("_", " ") for words in said]
-        return Answer(tables, data=lambda: {"tables": tables})
+        return Answer(tables, data={"tables": tables})
 
 
 class OfCase(Request):
@@ -262,7 +262,7 @@ class Quick(OfCase):
             _elastic(problem, found)
             _edge(problem, found)
         _learned(problem, found)
-        return Answer(found, data=lambda: found)
+        return Answer(found, data=found)
 
 
 class Verdict(OfCase):
@@ -296,7 +296,7 @@ class Verdict(OfCase):
             "words": list(dict.fromkeys((*words, *warned))),
             "tiers": [_in_si(each, problem) for each in estimates],
         }
-        return Answer(found, data=lambda: found)
+        return Answer(found, data=found)
 
 
 class Theory(OfCase):
@@ -310,7 +310,7 @@ class Theory(OfCase):
         # surrogates where there are some, because theories take seconds
         speeds = _by_speed(problem, AT_ONCE, *_AT_ONCE) or _by_speed(problem, SOON, *_SOON)
         found = {"crack": _crack(problem), "speeds": speeds}
-        return Answer(found, data=lambda: found)
+        return Answer(found, data=found)
 
 
 REQUESTS = (CaseFile, Quick, Verdict, Theory)

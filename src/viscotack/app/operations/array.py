@@ -68,8 +68,8 @@ class OfArray(Request):
         record |= {} if left is None else {"preload_after_hold_N": left}
         return Answer(
             found,
-            data=lambda: record | {"pads": pads},
-            words=lambda: _shown(found, held, record),
+            data=record | {"pads": pads},
+            words=_shown(found, held, record),
             files={"csv": curve, "pads": pads},
             pictures={"plot": lambda: draw_array(array, found, load=load)},
         )

@@ -55,7 +55,7 @@ class Inputs(Request):
             {"name": each.path, "value": each.value, "unit": each.unit, "meaning": each.card.words}
             for each in found.values()
         ]
-        return Answer(found, data=lambda: record, words=lambda: {"numbers": rows})
+        return Answer(found, data=record, words={"numbers": rows})
 
 
 class DescribePlan(Request):
@@ -93,7 +93,7 @@ class DescribePlan(Request):
             "memory_limit_bytes": limits.memory_limit,
             "ranges": ranges,
         }
-        return Answer(plan, data=lambda: record, files={"csv": lambda target: export(rows, target)})
+        return Answer(plan, data=record, files={"csv": lambda target: export(rows, target)})
 
 
 class Settings(Request):
@@ -157,8 +157,8 @@ class Run(Settings):
             why = str(error) or "interrupted"
             return Answer(
                 error,
-                data=lambda: {"stopped": True, "reason": why},
-                words=lambda: "",
+                data={"stopped": True, "reason": why},
+                words="",
                 notes=(f"viscotack: {why}; the stored rows in {out} are safe",),
                 status=_STOPPED,
             )
@@ -277,4 +277,4 @@ def _standing(folder: Path, of: "Progress | Store", **more: Any) -> Answer:
     words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
     if left:
         words.append(f"  resume with: viscotack campaign run --out {folder}")
-    return Answer(now, data=lambda: record | more, words=lambda: {"words": words} | more)
+    return Answer(now, data=record | more, words={"words": words} | more)

@@ -113,7 +113,7 @@ class Control(Request):
             files["ticks"] = read(released, *names)
         return Answer(
             table if released is None else (table, released),
-            data=lambda: _record(table, released, speed),
+            data=_record(table, released, speed),
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
             notes=stated.notes,

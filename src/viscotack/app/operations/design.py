@@ -65,8 +65,8 @@ class OfDesign(Request):
         warned = [stated.cautions(one.choice) for one in found.candidates]
         return Answer(
             found,
-            data=lambda: _record(found, rows, front) | {"cautions": warned},
-            words=lambda: _shown(found, rows, warned),
+            data=_record(found, rows, front) | {"cautions": warned},
+            words=_shown(found, rows, warned),
             files={"csv": rows, "front": front},
             pictures={
                 "plot": lambda: draw_design(found, stated),

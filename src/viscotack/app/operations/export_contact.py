@@ -52,8 +52,8 @@ class ExportContact(Request):
         shown = record | {"largest_stiffness_at_1_mm_N_per_m": found.stiffness(1e-3)}
         return Answer(
             found,
-            data=lambda: record | {"text": text},
-            words=lambda: shown if "output" in caller.wants else text.rstrip("\n"),
+            data=record | {"text": text},
+            words=shown if "output" in caller.wants else text.rstrip("\n"),
             files={"output": text},
             notes=stated.notes,
         )

@@ -117,7 +117,7 @@ class Forecast(Wish):
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
-            data=lambda: _record(found.fit, forecast, rows),
+            data=_record(found.fit, forecast, rows),
             files={"csv": rows},
             pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
             notes=refusals(found.survey),
@@ -142,8 +142,8 @@ class Report(Wish):
         found, forecast = _forecast(self, caller, IdentifyRates)
         return Answer(
             (found, forecast),
-            data=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
-            words=lambda: {"words": [*found.fit.words, *forecast.words]},
+            data=_record(found.fit, forecast, forecast_rows(forecast)),
+            words={"words": [*found.fit.words, *forecast.words]},
             files={"output": page(found, forecast)},
             notes=refusals(found.survey),
         )

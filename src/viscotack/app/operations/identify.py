@@ -90,8 +90,8 @@ class IdentifySlow(Rig):
         )
         return Answer(
             fit,
-            data=lambda: slow_record(fit),
-            words=lambda: _slow_shown(slow_record(fit)),
+            data=slow_record(fit),
+            words=_slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
             notes=refusals(found),
         )
@@ -292,8 +292,8 @@ def _answer(
     fit = found.fit
     return Answer(
         found,
-        data=lambda: record_of(fit),
-        words=lambda: {n: x for n, x in record_of(fit).items() if n not in _SAID},
+        data=record_of(fit),
+        words={n: x for n, x in record_of(fit).items() if n not in _SAID},
         files={"output": _written(found, caller)},
         pictures={
             "plot": lambda: draw_rate_series(fit),
@@ -386,7 +386,7 @@ class IdentifyApproach(Rig):
             raise InputError("; ".join(dict.fromkeys(refused)), field="files")
         return Answer(
             fits,
-            data=lambda: {"approaches": [_record_of_approach(fit) for fit in fits]},
+            data={"approaches": [_record_of_approach(fit) for fit in fits]},
             notes=(*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused))),
         )
 
@@ -451,14 +451,14 @@ class IdentifyCurves(Rig):
         rows, means = [_curve(fit) for fit in fits], [_group(group) for group in groups]
         return Answer(
             groups,
-            data=lambda: {
+            data={
                 "model": self.model,
                 "level": self.level,
                 "curves": rows,
                 "repeats": means,
                 "refused": refused,
             },
-            words=lambda: {"model": self.model, "repeats": means},
+            words={"model": self.model, "repeats": means},
             files={"csv": rows, "repeats": means},
             pictures={"plot": lambda: draw_curves(groups)},
             notes=(*refusals(survey), *(f"refused: {why}" for why in refused)),
@@ -531,7 +531,7 @@ class IdentifyDwell(Rig):
         )
         return Answer(
             fit,
-            data=lambda: _record_of_dwell(fit),
+            data=_record_of_dwell(fit),
             pictures={"plot": lambda: draw_dwells(fit)},
             notes=refusals(found),
         )

@@ -82,8 +82,8 @@ class FitMaterial(Dma, Shifting):
         words = "\n".join([report.words(), *shift_lines(passport)])
         return Answer(
             (report, passport),
-            data=lambda: fit_record(report, passport),
-            words=lambda: words,
+            data=fit_record(report, passport),
+            words=words,
             files={"output": lambda target: write_passport(passport, target)},
             pictures={"plot": lambda: draw_fit(report, passport)},
             drawn=lambda: _drawn(report, passport),
@@ -153,8 +153,8 @@ class ListMaterials(Request):
         found = library()
         return Answer(
             found,
-            data=lambda: {"materials": found},
-            words=lambda: "\n".join(_line(one) for one in found),
+            data={"materials": found},
+            words="\n".join(_line(one) for one in found),
         )
 
 
@@ -337,14 +337,14 @@ class ExportMaterial(_Converted):
         low, high = form.frequencies
         return Answer(
             text,
-            data=lambda: {
+            data={
                 "name": passport.name,
                 "program": self.to,
                 "text": text,
                 "error": form.error,
                 "angular_frequencies_rad_s": [low, high],
             },
-            words=lambda: "" if "output" in caller.wants else text.rstrip("\n"),
+            words="" if "output" in caller.wants else text.rstrip("\n"),
             files={"output": text},
         )
 
@@ -358,8 +358,8 @@ def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:
     written = caller is not None and "output" in caller.wants
     return Answer(
         passport,
-        data=lambda: passport_record(passport),
-        words=lambda: "" if written else in_words(passport),
+        data=passport_record(passport),
+        words="" if written else in_words(passport),
     )
 
 

@@ -116,8 +116,8 @@ class NextTest(Request):
         }
         return Answer(
             found,
-            data=lambda: record,
-            words=lambda: record | {"tests": rows[:_SHOWN]},
+            data=record,
+            words=record | {"tests": rows[:_SHOWN]},
             files={"csv": rows},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),

@@ -140,8 +140,8 @@ class Predict(Request):
             record |= _comparison(found, record, result)
         return Answer(
             found,
-            data=lambda: record,
-            words=lambda: _shown(found, record, self.why),
+            data=record,
+            words=_shown(found, record, self.why),
             units=units_of(found.problem.groups().outputs),
             files={"curve": lambda target: write_table(_curve(found), target)},
             pictures={"plot": lambda: _drawn(found, result)},
@@ -222,8 +222,8 @@ class Advise(Request):
         sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(
             advice,
-            data=lambda: _advised(advice, sentences, warned),
-            words=lambda: {"sentences": sentences},
+            data=_advised(advice, sentences, warned),
+            words={"sentences": sentences},
             notes=stated.notes,
         )
 

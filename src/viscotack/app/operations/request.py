@@ -40,17 +40,16 @@ WORDS, DRAWN = "words", "drawn"
 
 @dataclass(frozen=True)
 class Answer:
-    """Result of an operation, of :func:`viscotack.app.operations.ask`; made into text on demand.
+    """Result of an operation; its files and figures are made on demand.
 
     Attributes
     ----------
     found : object
         The result as a Python object.
-    data : callable
-        Returns the record: numbers in SI with the unit in the name.
-    words : callable, optional
-        Returns text for the terminal, or the part of the record that is shown there; default:
-        all of it.
+    data : object
+        The record: numbers in SI with the unit in the name.
+    words : str or mapping, optional
+        Text for the terminal, or what of the record is shown there; default: all of it.
     units : mapping
         Units of dimensionless numbers of the record by name, for the text.
     files : mapping
@@ -67,8 +66,8 @@ class Answer:
     """
 
     found: Any
-    data: Callable[[], Any]
-    words: Callable[[], Any] | None = None
+    data: Any
+    words: Any = None
     units: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, Content] = field(default_factory=dict)
     pictures: Mapping[str, Callable[[], Any]] = field(default_factory=dict)
@@ -78,13 +77,13 @@ class Answer:
 
     def record(self) -> Any:
         """Return the record as plain data, as printed by ``--json`` and returned over HTTP."""
-        return plain(self.data())
+        return plain(self.data)
 
     def __str__(self) -> str:
         """Return the text for the terminal."""
         from .parts.record_words import record_words
 
-        shown = self.data() if self.words is None else self.words()
+        shown = self.data if self.words is None else self.words
         return shown if isinstance(shown, str) else record_words(plain(shown), self.units)
 
 

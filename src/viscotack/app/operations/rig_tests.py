@@ -91,8 +91,8 @@ class ReadTests(Rig, ShiftLaw):
         sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
         return Answer(
             found,
-            data=lambda: tests_record(found, table, self.radius, law),
-            words=lambda: _shown(tests_record(found, table, self.radius, law)),
+            data=tests_record(found, table, self.radius, law),
+            words=_shown(tests_record(found, table, self.radius, law)),
             files={
                 "csv": rows,
                 "repeats": repeats,

@@ -91,8 +91,8 @@ class OfRough(Request):
         }
         return Answer(
             found,
-            data=lambda: found.summary | about,
-            words=lambda: _shown(found, about),
+            data=found.summary | about,
+            words=_shown(found, about),
             files={
                 "csv": found.rows(),
                 "maps": found.save_maps,

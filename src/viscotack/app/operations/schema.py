@@ -27,6 +27,6 @@ class Schema(Request):
         found = schema(caller.also)
         return Answer(
             found,
-            data=lambda: found,
-            words=lambda: words(caller.also) if self.words else json.dumps(found, indent=2),
+            data=found,
+            words=words(caller.also) if self.words else json.dumps(found, indent=2),
         )

@@ -154,8 +154,8 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
         found["sensitivities"] = result.sensitivities
     return Answer(
         result,
-        data=lambda: found,
-        words=lambda: _shown(result, found),
+        data=found,
+        words=_shown(result, found),
         units=units_of(kind) | {own.name: kind.units[own.measure].text for own in also},
         files=files,
         pictures={"plot": lambda: getattr(plot, f"draw_{plot_kind}")(result)},

@@ -87,8 +87,8 @@ class Sweep(Request):
         failed = sum(bool(row["reason"]) for row in found if row["inputs"] is not None)
         return Answer(
             found,
-            data=lambda: {"rows": found, "failed": failed},
-            words=lambda: {"rows": shown_rows(changes, found, "reason"), "failed": failed},
+            data={"rows": found, "failed": failed},
+            words={"rows": shown_rows(changes, found, "reason"), "failed": failed},
             units={} if rough else units_of(stated.problem.outputs),
             files={"csv": _flat(cases, found)},
             notes=(*stated.notes, *changes.notes, *warnings),

@@ -119,8 +119,8 @@ class OfUncertainty(Request):
         unit = force.unit.text if problem.scales() is None else force.unit.si
         return Answer(
             found,
-            data=lambda: _record(found, rows, unit),
-            words=lambda: _shown(found, rows, force.words, unit),
+            data=_record(found, rows, unit),
+            words=_shown(found, rows, force.words, unit),
             files={"csv": rows},
             pictures={"plot": lambda: draw_uncertainty(found)},
             notes=notes,

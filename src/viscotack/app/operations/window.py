@@ -74,8 +74,8 @@ class OfWindow(Request):
         columns = [*first, *_CELL, *(_YIELD if scattered else ())]
         return Answer(
             tuple(maps) if len(maps) > 1 else maps[0],
-            data=lambda: {"cells": cells, "critical_speeds": critical},
-            words=lambda: _shown(cells, critical),
+            data={"cells": cells, "critical_speeds": critical},
+            words=_shown(cells, critical),
             files={
                 "csv": {name: [row[name] for row in cells] for name in columns},
                 "critical": {n: [row[n] for row in critical] for n in [*first, *_CRITICAL]},

@@ -82,7 +82,7 @@ def predict_file(path: Path, confidence: float, tell: Tell) -> Answer:
     }
     return Answer(
         found,
-        data=lambda: record,
+        data=record,
         files=_files(dict(zip(headings, given.values(), strict=True)) | found),
     )
 
@@ -144,8 +144,8 @@ def predict_changes(
     record = _counts(table["method"], table["inside"], table["why"]) | {"rows": found}
     return Answer(
         found,
-        data=lambda: record,
-        words=lambda: record | {"rows": shown_rows(changes, found, "why", "interval")},
+        data=record,
+        words=record | {"rows": shown_rows(changes, found, "why", "interval")},
         units=units_of(stated.problem.groups().outputs),
         files=_files({name: table[name] for name in order}),
         notes=(*stated.improbable, *changes.notes),
