@@ -1,6 +1,5 @@
 """Figure and film of a pull on a rough surface: force curve, contact and gap."""
 
-import subprocess
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -42,19 +41,8 @@ def draw_rough(found: RoughResult) -> "Figure":
     return figure
 
 
-def check_ffmpeg() -> None:
-    """Raise InputError with a remedy if ffmpeg is missing."""
-    from matplotlib.animation import FFMpegWriter
-
-    if not FFMpegWriter.isAvailable():
-        raise InputError(
-            "an .mp4 film needs the program ffmpeg; install it (Debian: apt install ffmpeg, macOS: "
-            "brew install ffmpeg, conda install ffmpeg), or write a .gif by --film"
-        )
-
-
-def film_of_pull(found: RoughResult, target: Target, ending: str = ".gif") -> None:
-    """Write the detachment as a film: the pressure over the map beside the force curve.
+def film_of_pull(found: RoughResult, target: Target) -> None:
+    """Write the detachment as a GIF film: the pressure over the map beside the force curve.
 
     Parameters
     ----------
@@ -62,31 +50,23 @@ def film_of_pull(found: RoughResult, target: Target, ending: str = ".gif") -> No
         With two maps or more; :func:`viscotack.simulate.rough.pull` makes them if asked.
     target : path or binary file
         Where to write.
-    ending : str
-        ".gif", or ".mp4" for H.264 by the program ffmpeg.
 
     Raises
     ------
     ValueError
-        If the result has fewer than two maps, or ffmpeg is missing or fails.
+        If the result has fewer than two maps.
     """
-    from matplotlib.animation import FFMpegWriter, PillowWriter
+    from matplotlib.animation import PillowWriter
 
     if len(found.maps) < 2:
         raise InputError("a film needs maps of several instants; ask for at least 2")
-    if ending == ".mp4":
-        check_ffmpeg()
-    writer = (FFMpegWriter if ending == ".mp4" else PillowWriter)(fps=_PER_SECOND)
+    writer = PillowWriter(fps=_PER_SECOND)
     with style(), tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"film{ending}"
-        figure, show = _figure(found)
-        try:
-            with writer.saving(figure, str(path), _DPI):
-                for each in found.maps:
-                    show(each)
-                    writer.grab_frame()
-        except subprocess.CalledProcessError as error:
-            raise InputError(f"ffmpeg did not write the film: {error.stderr}") from None
+        path, (figure, show) = Path(folder) / "film.gif", _figure(found)
+        with writer.saving(figure, str(path), _DPI):
+            for each in found.maps:
+                show(each)
+                writer.grab_frame()
         write_whole(target, path.read_bytes())
 
 

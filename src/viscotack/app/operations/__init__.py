@@ -55,8 +55,8 @@ SECTIONS: Mapping[str, Mapping[str, tuple[str, str]]] = {
     },
     "Design": {
         "design": ("design", "Find radius, preload, pads and speeds for wanted forces."),
-        "array": ("array", "Pull an array of pads off."),
-        "window": ("window", "Determine where a stamp picks an object and prints it."),
+        "array": ("design", "Pull an array of pads off."),
+        "window": ("design", "Determine where a stamp picks an object and prints it."),
         "control": ("control", "Tabulate the force for a controller; release at a force."),
     },
     "Compute many cases": {

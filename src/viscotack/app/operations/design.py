@@ -1,11 +1,13 @@
-"""The operation ``design``: what to build for wanted forces."""
+"""The operations ``design``, ``array`` and ``window``: what to build, and how it holds."""
 
+from math import isfinite, isnan
 from pathlib import Path
 from typing import Any, ClassVar
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.units import readable
 
-from .options import csv_file, file_name, option, picture
+from .options import csv_file, file_name, option, picture, switch
 from .parts.record_words import read
 from .predict import OF_METHOD
 from .request import Answer, Caller, Request
@@ -49,8 +51,7 @@ class OfDesign(Request):
         from viscotack.design import find_design, read_design
         from viscotack.plot.design import draw_design, draw_front
 
-        file = caller.file(self.file)
-        stated = read_design(file, also=caller.also, beside=caller.within(file).file)
+        stated = caller.read_file(self.file, read_design)
         found = find_design(
             stated.materials,
             stated.traction,
@@ -60,13 +61,25 @@ class OfDesign(Request):
             progress=caller.share,
             **self.values("confirm", "seed", "accuracy", "time_limit"),
         )
-        rows = [_row(one) for one in found.candidates]
-        front = [_front_row(one) for one in found.front]
-        warned = [stated.cautions(one.choice) for one in found.candidates]
+        rows = [_design(one) for one in found.candidates]
+        front = [
+            _choice(one)
+            | {f"margin_{name}": x for name, x in one.margins.items()}
+            | {f"best_margin_{name}": x for name, x in one.best_margins.items()}
+            for one in found.front
+        ]
+        limit = ("target", "wanted", "reach", "cause", "excludes", "why")
+        record = {
+            "designs": rows,
+            "front": front,
+            "limits": [read(each, *limit) for each in found.limits],
+            **read(found, "meets", "binding", "elasticities", "predictions", "tier"),
+            "cautions": [stated.cautions(one.choice) for one in found.candidates],
+        }
         return Answer(
             found,
-            data=_record(found, rows, front) | {"cautions": warned},
-            words=_shown(found, rows, warned),
+            data=record,
+            words=_design_shown(found, record),
             files={"csv": rows, "front": front},
             pictures={
                 "plot": lambda: draw_design(found, stated),
@@ -75,59 +88,27 @@ class OfDesign(Request):
         )
 
 
-# Forces of a design with their units.
+# Forces of a design with their units, and its variables as columns.
 _FORCES = {"hold": "N", "release": "N", "work": "J", "dead_load": "N"}
-
-
-# Variables of a design as columns.
 _CHOICE = ("material", "radius_m", "preload_N", "pads", "hold_speed_m_per_s")
 _CHOICE += ("release_speed_m_per_s", "modulus_Pa", "thickness_m", "exponent", "backing_N_per_m")
 
 
-def _forces_row(one: Any) -> dict[str, Any]:
-    """Return the forces of a design with their intervals as columns."""
-    row: dict[str, Any] = {}
+def _choice(one: Any) -> dict[str, Any]:
+    """Return the variables of a design, and its forces with their intervals, as columns."""
+    row = read(one.choice, *_CHOICE)
     for name, unit in _FORCES.items():
-        force = one.forces.get(name)
-        values = (None,) * 3 if force is None else (force.value, force.low, force.high)
-        columns = (unit, f"low_{unit}", f"high_{unit}")
-        row |= {f"{name}_{x}": value for x, value in zip(columns, values, strict=True)}
-        row[f"{name}_method"] = None if force is None else force.method
+        columns = {unit: "value", f"low_{unit}": "low", f"high_{unit}": "high", "method": "method"}
+        row |= read(one, **{f"{name}_{x}": f"forces.{name}.{of}" for x, of in columns.items()})
     return row
 
 
-def _row(one: Any) -> dict[str, Any]:
-    """Return the row of a design."""
-    run = one.run
-    row = read(one.choice, *_CHOICE) | _forces_row(one)
-    for name, unit in _FORCES.items():
-        row[f"simulated_{name}_{unit}"] = None if run is None else run.forces.get(name)
-    row["simulated_time_s"] = None if run is None else run.time
-    row["margin"] = one.margin
-    row["simulated_margin"] = None if run is None else run.margin
-    row["yield"] = one.share
-    row["meets"] = None if run is None else run.meets
-    return row | {"why": "" if run is None else run.why}
-
-
-def _front_row(one: Any) -> dict[str, Any]:
-    """Return the row of a design of the front, with the margins at both ends of the intervals."""
-    low = {f"margin_{name}": x for name, x in one.margins.items()}
-    high = {f"best_margin_{name}": x for name, x in one.best_margins.items()}
-    return read(one.choice, *_CHOICE) | _forces_row(one) | low | high
-
-
-def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
-    """Return the numbers of the answer."""
-    return {
-        "designs": rows,
-        "front": front,
-        "limits": [
-            read(each, "target", "wanted", "reach", "cause", "excludes", "why")
-            for each in found.limits
-        ],
-        **read(found, "meets", "binding", "elasticities", "predictions", "tier"),
-    }
+def _design(one: Any) -> dict[str, Any]:
+    """Return the row of a design and its simulation."""
+    simulated = {f"simulated_{x}_{unit}": f"run.forces.{x}" for x, unit in _FORCES.items()}
+    simulated |= {"simulated_time_s": "run.time", "margin": "margin"}
+    simulated |= {"simulated_margin": "run.margin", "yield": "share", "meets": "run.meets"}
+    return _choice(one) | read(one, **simulated) | {"why": "" if one.run is None else one.run.why}
 
 
 _VERDICTS = {
@@ -137,7 +118,7 @@ _VERDICTS = {
 }
 
 
-def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> dict[str, Any]:
+def _design_shown(found: Any, record: dict[str, Any]) -> dict[str, Any]:
     """Return what the text says of a record: the front has a table of its own."""
     words = [_VERDICTS[found.meets], *(each.words for each in found.excluded)]
     if found.meets is False and not found.excluded and found.best.run is None:
@@ -146,9 +127,230 @@ def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> d
         )
     return {
         "words": words,
-        "designs": rows,
+        "designs": record["designs"],
         "binding": found.binding,
         "designs_of_the_front": len(found.front) or None,
         "d ln P/d ln x": {f"of {name}": dict(each) for name, each in found.elasticities.items()},
-        "cautions": [*warned, OF_METHOD],
+        "cautions": [*record["cautions"], OF_METHOD],
+    }
+
+
+class OfArray(Request):
+    """Pull an array of pads off: force, order of detachment, load sharing, payload and yield.
+
+    Each pad follows the force-depth curve of one pad at the speed of the pull; heights, works,
+    tilt, curvature and springs of the backing determine which detaches first. docs/arrays.md
+    describes the file and the theory.
+
+    Example: viscotack array gripper_finger.toml --plot array.png
+    """
+
+    word: ClassVar = "array"
+    outputs: ClassVar = (
+        csv_file("Write force by travel of the drive."),
+        csv_file("Write a row for each pad.", "pads"),
+        picture("Draw the force and the order of the pads."),
+    )
+    takes_own: ClassVar = True
+
+    file: Path = file_name(
+        "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
+        metavar="ARRAY.toml",
+        argument=True,
+        default=...,
+    )
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Limit = 60.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Pull the array, and hold its load, telling ``share``."""
+        from viscotack.design import read_array
+        from viscotack.design.arrays import array_yield, holding, preload_after, pull_array
+        from viscotack.plot.design import draw_array
+
+        stated = caller.read_file(self.file, read_array)
+        how = self.values("accuracy", "time_limit")
+        how |= {"speed": stated.speed, "preload": stated.preload}
+        scatter, load = stated.scatter, stated.hold
+        array = stated.array if scatter is None else scatter.of(stated.array)
+        found = pull_array(array, **how, progress=caller.share)
+        held = None if load is None else holding(array, found, load, **how)
+        wait = stated.hold_time
+        left = None if wait is None else preload_after(array, wait, **how)
+        part = None
+        if scatter is not None and load is not None:
+            how |= {"draws": stated.draws, "progress": caller.share}
+            part = array_yield(stated.array, scatter, load=load.force, **how)
+        order = {pad: place + 1 for place, pad in enumerate(found.order)}
+        pads = [
+            {
+                "pad": i + 1,
+                "x_m": x,
+                "y_m": y,
+                "height_m": array.heights[i],
+                "work_factor": array.works[i],
+                "start_force_N": found.start_force[i],
+                "released_at_m": found.released[i] if i in order else None,
+                "order": order.get(i),
+            }
+            for i, (x, y) in enumerate(array.positions)
+        ]
+        record = {
+            "count": len(array.positions),
+            **read(found, "pull_off_force_N", "interval_N"),
+            **read(found, work_of_separation_J="work", lost_in_jumps_J="lost"),
+            "jumps": [{"travel_m": x, "pads": count} for x, count in found.jumps],
+            **read(found, "load_sharing", "method", "why"),
+        }
+        if held is not None:
+            record |= read(held, load_N="force", holds="holds", payload_kg="payload")
+            record |= read(held, lasting_payload_kg="lasting", time_to_detachment_s="time")
+            record |= read(held, "release_time_s", why_time="why")
+        if part is not None:
+            record |= {"yield": part.share, "yield_interval": part.interval}
+        if left is not None:
+            record["preload_after_hold_N"] = left
+        return Answer(
+            found,
+            data=record | {"pads": pads},
+            words=_array_shown(found, held, record),
+            files={"csv": {"travel_m": -found.drive, "force_N": found.force}, "pads": pads},
+            pictures={"plot": lambda: draw_array(array, found, load=load)},
+        )
+
+
+def _array_shown(found: Any, held: Any, record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record; the load is in a sentence."""
+    words = []
+    if held is not None:
+        word = {True: "holds", False: "does not hold", None: "may hold, within the interval"}
+        after = f"after {readable(held.time, 's')}" if isfinite(held.time) else "not within a day"
+        after = "after an unknown time" if isnan(held.time) else after
+        words = [
+            f"the array {word[held.holds]}: load of {readable(held.force, 'N')} with acceleration "
+            f"and safety factor",
+            f"at rest under its weight the load detaches {after} ({held.why})",
+        ]
+    if (apart := record["count"] - len(found.order)) > 0:
+        words.append(f"{apart} of {record['count']} pads do not touch")
+    said = ("holds", "load_N", "time_to_detachment_s", "why_time")
+    return {"words": words} | {n: x for n, x in record.items() if n not in said}
+
+
+class OfWindow(Request):
+    """Determine where a stamp picks an object from a donor and prints it on a receiver.
+
+    The object has a contact with the stamp and one with donor or receiver, which carry the same
+    force. Which opens first follows from two steady cracks in series, with intervals;
+    docs/pick_and_print.md describes the file and the theory. With [scatter] the answer has the
+    probabilities to pick and to print, with temperatures or dwells a map for each.
+
+    Example: viscotack window stamp.toml --plot window.png
+    """
+
+    word: ClassVar = "window"
+    outputs: ClassVar = (
+        csv_file("Write a row for each speed and preload."),
+        csv_file("Write a row for each critical speed.", "critical"),
+        picture("Draw the map of speed and preload."),
+    )
+    takes_own: ClassVar = True
+
+    file: Path = file_name(
+        "The contacts [stamp], [donor] and [receiver], and [pull] with speeds and preloads.",
+        metavar="WINDOW.toml",
+        argument=True,
+        default=...,
+    )
+    simulate: bool = switch(
+        "Simulate both contacts in one march where steady cracks do not decide (seconds)."
+    )
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Limit = 60.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Evaluate every speed and preload of each map, telling ``share``."""
+        from viscotack.design import read_window
+        from viscotack.design.window import window
+        from viscotack.plot.design import draw_window
+
+        stated = caller.read_file(self.file, read_window)
+        maps, cells, critical = [], [], []
+        for number, each in enumerate(stated):
+
+            def tell(share: float, done: int = number) -> None:
+                caller.share((done + share) / len(stated))
+
+            of_map = ("donor", "receiver", "speeds", "preloads", "stiffness", "scatter")
+            how = read(each, *of_map) | self.values("simulate", "accuracy", "time_limit")
+            found = window(each.stamp, **how, progress=tell)
+            maps.append(found)
+            at = _place(each)
+            cells += [at | _cell(x, scattered=each.scatter is not None) for x in found.cells]
+            critical += [at | read(x, **_CRITICAL) for x in found.critical_speeds]
+        columns = [*_place(stated[0]), *_CRITICAL]
+        return Answer(
+            tuple(maps) if len(maps) > 1 else maps[0],
+            data={"cells": cells, "critical_speeds": critical},
+            words=_window_shown(cells, critical),
+            files={"csv": cells, "critical": {n: [row[n] for row in critical] for n in columns}},
+            pictures={"plot": lambda: draw_window(*maps, titles=[_title(x) for x in stated])},
+        )
+
+
+def _place(stated: Any) -> dict[str, float]:
+    """Return temperature and dwell of a map as columns."""
+    both = {"temperature_K": stated.temperature, "dwell_s": stated.dwell}
+    return {name: value for name, value in both.items() if value is not None}
+
+
+def _title(stated: Any) -> str:
+    """Return temperature and dwell of a map in words."""
+    T, dwell = stated.temperature, stated.dwell
+    words = [] if T is None else [f"at {T - 273.15:.4g} degC"]
+    return ", ".join(words + ([] if dwell is None else [f"after {readable(dwell, 's')}"]))
+
+
+_CRITICAL = {"base": "base", "preload_N": "preload", "critical_speed_m_per_s": "speed"}
+_CRITICAL |= {"low_m_per_s": "interval.0", "high_m_per_s": "interval.1"}
+_CRITICAL |= {"opens_below": "below", "opens_above": "above", "method": "method"}
+
+
+def _cell(cell: Any, *, scattered: bool) -> dict[str, Any]:
+    """Return the row of a speed and a preload."""
+    row = read(cell, "speed_m_per_s", "preload_N", "word")
+    for base in ("donor", "receiver"):
+        one = getattr(cell, base)
+        opened = None if one is None or one.opened is None else (base, "stamp")[one.opened]
+        row[f"{base}_opens"] = opened
+        row |= {f"{base}_{name}": x for name, x in read(one, "tension_N", "held", "method").items()}
+    row["why"] = cell.why
+    if scattered:
+        for name in ("pick", "print"):
+            ends = {"probability": "value", "low": "low", "high": "high"}
+            row |= read(cell, **{f"{name}_{x}": f"{name}.{end}" for x, end in ends.items()})
+        row["transfer_probability"] = cell.transfer
+    return row
+
+
+def _window_shown(cells: list[dict[str, Any]], critical: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return what the text says: the map of words, best yields, and critical speeds."""
+    maps: dict[Any, dict[str, Any]] = {}
+    best: dict[Any, dict[str, Any]] = {}
+    for cell in cells:
+        at = {name: cell.get(name) for name in ("temperature_K", "dwell_s", "preload_N")}
+        place, speed = tuple(at.values()), cell["speed_m_per_s"]
+        maps.setdefault(place, dict(at))[readable(speed, "m/s", digits=3)] = cell["word"]
+        for name in ("pick", "print", "transfer"):
+            chance = cell.get(f"{name}_probability")
+            known = best.get((*place, name), {"probability": -1.0})
+            if chance is not None and chance > known["probability"]:
+                row = {"of": name, "probability": chance, "speed_m_per_s": speed}
+                best[(*place, name)] = at | row
+    undecided = {cell["why"]: None for cell in cells if cell["word"] == "undecided"}
+    return {
+        "map": list(maps.values()),
+        "best": list(best.values()),
+        "critical_speeds": critical,
+        "undecided": list(undecided),
     }

@@ -181,6 +181,11 @@ class Caller:
         """Return the caller of the names inside a file, which are relative to its folder."""
         return self if self.sent else replace(self, folder=file.parent)
 
+    def read_file(self, name: Path, reader: Callable[..., Any]) -> Any:
+        """Return what a reader makes of a file, which may name other files in its folder."""
+        file = self.file(name)
+        return reader(file, also=self.also, beside=self.within(file).file)
+
     def rows(self, given: Any) -> tuple[Mapping[str, Any], ...]:
         """Return the rows of an option, which may be in a file."""
         if not isinstance(given, Path):

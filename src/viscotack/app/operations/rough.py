@@ -31,11 +31,6 @@ class OfRough(Request):
         binary_file("maps", "Write maps of gap and pressure to a .npz file.", ".npz"),
         picture("Draw the force curve and the contact."),
         binary_file("film", "Write the detachment as a film to a .gif file.", ".gif"),
-        binary_file(
-            "movie",
-            "Write the detachment as a film to an .mp4 file, by the program ffmpeg.",
-            ".mp4",
-        ),
     )
     takes_own: ClassVar = True
 
@@ -65,17 +60,14 @@ class OfRough(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate the test, telling ``share``."""
-        from viscotack.plot.rough import check_ffmpeg, draw_rough, film_of_pull
+        from viscotack.plot.rough import draw_rough, film_of_pull
         from viscotack.result import Outcome
         from viscotack.simulate.rough import pull, read_rough, stickiness
 
-        file = caller.file(self.file)
-        problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
-        if "movie" in caller.wants:
-            check_ffmpeg()
+        problem = caller.read_file(self.file, read_rough)
         found = pull(
             problem,
-            maps=self.moments or (_FRAMES if caller.wants & {"film", "movie"} else 0),
+            maps=self.moments or (_FRAMES if "film" in caller.wants else 0),
             force_coarse=self.anyway,
             threads=min(os.cpu_count() or 1, _MOST_THREADS),
             progress=caller.share,
@@ -97,7 +89,6 @@ class OfRough(Request):
                 "csv": found.rows(),
                 "maps": found.save_maps,
                 "film": lambda target: film_of_pull(found, target),
-                "movie": lambda target: film_of_pull(found, target, ".mp4"),
             },
             pictures={"plot": lambda: draw_rough(found)},
             notes=(*problem.surface.notes, *found.warnings),

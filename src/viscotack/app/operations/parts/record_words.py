@@ -273,19 +273,26 @@ def units_of(kind: "Kind") -> dict[str, str]:
     return found | {name: found["depth_at_pull_off"] for name in depths}
 
 
-def read(one: Any, *names: str) -> dict[str, Any]:
-    """Return attributes by name; the unit at the end of a name is not part of the attribute's.
+def read(one: Any, *names: str, **paths: str) -> dict[str, Any]:
+    """Return attributes of an object by name, a unit at the end of a name left out.
+
+    A keyword has a path of attributes, keys and places; beyond None everything is None.
 
     Examples
     --------
-    >>> from types import SimpleNamespace
-    >>> read(SimpleNamespace(speed=1e-6, tests=3), "speed_m_per_s", "tests")
-    {'speed_m_per_s': 1e-06, 'tests': 3}
+    >>> from viscotack import Sphere
+    >>> read(Sphere(5e-3), "radius_m", size="radius")
+    {'radius_m': 0.005, 'size': 0.005}
     """
     found = {}
-    for name in names:
-        match = _UNIT.search(name)
-        found[name] = getattr(one, name if match is None else name[: match.start()])
+    for name, path in ({name: _UNIT.sub("", name) for name in names} | paths).items():
+        value = one
+        for part in path.split("."):
+            if isinstance(value, Mapping | tuple):
+                value = value[int(part)] if isinstance(value, tuple) else value.get(part)
+            elif value is not None:
+                value = getattr(value, part)
+        found[name] = value
     return found
 
 
