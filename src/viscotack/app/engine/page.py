@@ -16,6 +16,7 @@ import numpy as np
 from pydantic import Field
 
 from viscotack.app.operations.options import contact, option
+from viscotack.app.operations.parts.record_words import read
 from viscotack.app.operations.parts.solid import EXAMPLES, FIRST, library
 from viscotack.app.operations.parts.tables import drawn
 from viscotack.app.operations.request import Answer, Caller, Request
@@ -35,14 +36,13 @@ from viscotack.model.geometry import (
 from viscotack.model.problem import Problem, plane, revolution
 from viscotack.model.problem.case_file import ProfilePoint
 from viscotack.model.problem.law_table import STRENGTH
-from viscotack.model.problem.nouns import Nouns, known
+from viscotack.model.problem.nouns import known
 from viscotack.model.problem.outputs import PLANE, REVOLUTION
 from viscotack.model.problem.protocol_table import STARTS
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction, states
 from viscotack.model.traction import Tabulated
 from viscotack.prediction.advice import advice_on, estimate_by, estimates_without_advice
 from viscotack.prediction.cautions import cautions_on
-from viscotack.prediction.closed_forms import Estimate
 from viscotack.prediction.predict import predict
 from viscotack.prediction.prediction import Prediction
 from viscotack.prediction.theories import crack_of, forms_of
@@ -60,6 +60,7 @@ if TYPE_CHECKING:
 _SUGGESTED = {"Pa": "2 kPa", "Pa/m": "1 GPa/m", "1": "0.5"}
 # Ways to begin, the usual one first.
 _TITLES = {AtForce: "pressed by a load", AtDepth: "to a depth", AtRadius: "to a contact radius"}
+_TITLES |= {Apart: "apart"}
 
 
 def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
@@ -82,13 +83,27 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
     ['sphere', 'cone', 'profile', 'wavy-sphere', 'disc', 'punch']
     """
     nouns = known(also)
+
+    def choices(kinds: Mapping[str, Any], *files: type) -> list[dict[str, Any]]:
+        """Return the choices that numbers state; `files` are stated by the table of a file."""
+        return [
+            {
+                "word": word,
+                "words": (kind.__doc__ or "").strip().partition("\n")[0].removeprefix("Describe "),
+                "fields": _fields(ProfilePoint if kind is PowerLawProfile else kind),
+                "symmetry": getattr(kind, "symmetry", ""),
+            }
+            for word, kind in kinds.items()
+            if kind not in files
+        ]
+
+    laws = choices(nouns.laws, Tabulated)
+    for field in (x for law in laws for x in law["fields"] if x["key"] == "equilibrium_gap"):
+        field["or"] = _asked("strength", STRENGTH)
     return {
-        "material": [_choice(word, kind) for word, kind in nouns.materials.items()],
-        "interface": _laws(nouns),
-        # a table of heights is a file's, and cannot be typed
-        "shape": [
-            _shape(w, kind) for w, kind in nouns.shapes.items() if kind is not MeasuredProfile
-        ],
+        "material": choices(nouns.materials),
+        "interface": laws,
+        "shape": choices(nouns.shapes, MeasuredProfile),
         "layer": {
             "fields": _fields(Layer),
             "bases": [{"word": base.word} for base in (Frictionless, Bonded)],
@@ -97,47 +112,19 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
     }
 
 
-def _choice(word: str, kind: Any, extra: Iterable[dict[str, Any]] = ()) -> dict[str, Any]:
-    return {
-        "word": word,
-        "words": _first(kind),
-        "fields": [*_fields(kind), *extra],
-    }
-
-
-def _laws(nouns: Nouns) -> list[dict[str, Any]]:
-    """Return the laws that numbers state; one that is a file's table cannot be typed."""
-    found = []
-    for word, kind in nouns.laws.items():
-        if kind is Tabulated:
-            continue
-        choice = _choice(word, kind)
-        for field in choice["fields"]:
-            if field["key"] == "equilibrium_gap":
-                field["or"] = _asked("strength", STRENGTH)
-        found.append(choice)
-    return found
-
-
-def _shape(word: str, kind: Any) -> dict[str, Any]:
-    choice = _choice(word, kind) | {"symmetry": kind.symmetry}
-    if kind is PowerLawProfile:
-        choice["fields"] = _fields(ProfilePoint)
-    return choice
-
-
 def _protocol(units: Mapping[str, str]) -> dict[str, Any]:
     """Return the fields of the protocol, in the units of a geometry."""
     test, known = cards(Retraction), {x: key for key, x in STARTS[units["force"]].items()}
     starts = []
-    for kind in (x for x in _TITLES if x in known):
+    for kind, title in _TITLES.items():
         (field,) = cards(kind).values()
-        asked = _asked(known[kind], field.card, units[field.card.measure])
-        starts.append(asked | {"title": _TITLES[kind]})
-    (gap,) = cards(Apart).values()
-    apart = _asked("start", gap.card) | {"title": "apart", "prefix": "apart "}
+        if kind is Apart:
+            starts.append(_asked("start", field.card) | {"title": title, "prefix": "apart "})
+        elif kind in known:
+            asked = _asked(known[kind], field.card, units[field.card.measure])
+            starts.append(asked | {"title": title})
     return {
-        "starts": [*starts, apart],
+        "starts": starts,
         "speed": _asked("speed", test["speed"].card),
         "stiffness": _asked("stiffness", test["stiffness"].card, units["stiffness"], optional=True),
         "moves": [
@@ -165,17 +152,8 @@ def _asked(
         return said | {"kind": "pairs"}
     unit = unit or card.unit
     example = card.example if unit == card.unit else ""
-    return said | {
-        "kind": "number",
-        "unit": unit,
-        "range": card.range,
-        "example": example or _SUGGESTED.get(unit, "1"),
-    }
-
-
-def _first(kind: Any) -> str:
-    """Return the first sentence of a class's docstring."""
-    return (kind.__doc__ or "").strip().partition("\n")[0].removeprefix("Describe ")
+    example = example or _SUGGESTED.get(unit, "1")
+    return said | {"kind": "number", "unit": unit, "range": card.range, "example": example}
 
 
 _POINTS = 80
@@ -290,12 +268,12 @@ class Verdict(OfCase):
         except InputError:
             estimates = estimates_without_advice(question)
         warned = cautions_on(problem, passport=stated.passport)
-        found = {
-            "numbers": numbers,
-            "refused": refused,
-            "words": list(dict.fromkeys((*words, *warned))),
-            "tiers": [_in_si(each, problem) for each in estimates],
-        }
+        unit = _scale(problem, _pulled(problem))
+        tiers = [read(each, "tier", "error", "applies", "why") for each in estimates]
+        for row, each in zip(tiers, estimates, strict=True):
+            row["value"] = None if each.pull_off_force is None else each.pull_off_force * unit
+        words = list(dict.fromkeys((*words, *warned)))
+        found = {"numbers": numbers, "refused": refused, "words": words, "tiers": tiers}
         return Answer(found, data=found)
 
 
@@ -430,11 +408,8 @@ def _crack(problem: Any) -> dict[str, Any] | None:
         return None
     found, scales = question.once(crack_of), problem.scales()
     assert isinstance(found, CrackContact), "the tier has answered"
-    return _curve(
-        "edge a steady crack, bulk remembers",
-        found.depth * scales.length,
-        found.force * scales.force,
-    )
+    depth, force = found.depth * scales.length, found.force * scales.force
+    return _curve("edge a steady crack, bulk remembers", depth, force)
 
 
 def _learned(problem: Any, found: dict[str, Any]) -> None:
@@ -500,14 +475,3 @@ def _numbers(answer: Prediction) -> list[dict[str, Any]]:
         row = {"name": name, "value": value * scale, "interval": [low, high], "band": band}
         found.append(row | {"method": answer.method, "why": answer.why})
     return found
-
-
-def _in_si(estimate: Estimate, problem: Any) -> dict[str, Any]:
-    value = estimate.pull_off_force
-    return {
-        "tier": estimate.tier,
-        "value": None if value is None else value * _scale(problem, _pulled(problem)),
-        "error": estimate.error,
-        "applies": estimate.applies,
-        "why": estimate.why,
-    }
