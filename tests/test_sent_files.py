@@ -4,7 +4,7 @@ import pytest
 
 from stated import case_text
 from viscotack import InputError
-from viscotack.app.engine.operating import run_request
+from viscotack.app.engine.lane import run_request
 from viscotack.app.operations import operation
 from viscotack.app.operations.request import Caller, request_of
 

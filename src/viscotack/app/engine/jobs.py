@@ -17,8 +17,8 @@ from pydantic import BaseModel, Field, PrivateAttr
 from viscotack.app.operations.request import Request, harmless_name
 from viscotack.errors import InputError
 
-from . import operating, page
-from .lane import Defect, Lane
+from . import page
+from .lane import Defect, Lane, run_request, warm
 
 # Largest number of finished jobs, and of sent files, that are kept.
 _KEPT = 64
@@ -139,8 +139,8 @@ class Engine:
         """Start a process of each lane, so that no simulation holds up a slider."""
         self._lanes = {
             "page": Lane(2, page.warm, self._own),
-            "ask": Lane(2, operating.warm, self._own, nice=4),
-            "work": Lane(self.limits.workers, operating.warm, self._own, nice=2),
+            "ask": Lane(2, warm, self._own, nice=4),
+            "work": Lane(self.limits.workers, warm, self._own, nice=2),
         }
         for lane in self._lanes.values():
             lane.begin()
@@ -158,7 +158,7 @@ class Engine:
     ) -> dict[str, Any]:
         """Return the answer of a request."""
         run, given = self._lanes[lane].run, (asked, tuple(outputs), self._folder(files))
-        return await run(operating.run_request, *given, seconds=self.limits.ask_time)
+        return await run(run_request, *given, seconds=self.limits.ask_time)
 
     def keep(self, files: Iterable[tuple[str, bytes]]) -> str:
         """Keep files that were sent, and return the name by which requests refer to them."""
@@ -221,9 +221,7 @@ class Engine:
 
         lane, how = self._lanes["work"], {"told": job.tell, "begun": begun}
         try:
-            answer = await lane.run(
-                operating.run_request, *given, seconds=self.limits.job_time, **how
-            )
+            answer = await lane.run(run_request, *given, seconds=self.limits.job_time, **how)
             job.close("done", answer=answer)
         except InputError as error:
             job.field = error.field

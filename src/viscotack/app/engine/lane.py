@@ -5,12 +5,18 @@ cancelled or too slow ends with its process.
 """
 
 import asyncio
+import base64
+import io
+import os
 import sys
 import traceback
 from collections.abc import Callable
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import chdir
 from typing import Any
 
+from viscotack.app.operations.options import Output
+from viscotack.app.operations.request import Answer, Caller, Request, answered, plain, write
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.system import FRESH, Processes, begin_worker
 
@@ -21,6 +27,8 @@ else:
 
 # Interval between two looks at a task [s], and memory that a process may take [bytes].
 _LOOK, _MOST_MEMORY = 0.05, 4 * 2**30
+# Outputs besides files that may be requested of every answer.
+_WORDS, _DRAWN = "words", "drawn"
 
 
 class Defect(RuntimeError):
@@ -158,3 +166,71 @@ class Lane:
                 else:
                     self._all.remove(pool)
                     await asyncio.to_thread(pool.kill)
+
+
+def warm() -> None:
+    """Run slow initialisations once."""
+    from viscotack.app.operations.parts.solid import FIRST
+    from viscotack.model.problem.accuracy import LOOSEST_ACCURACY
+    from viscotack.model.problem.case_file import case_of_tables
+    from viscotack.simulate import solve
+
+    problem = case_of_tables(FIRST)
+    solve(problem, accuracy=LOOSEST_ACCURACY, until="pull-off", estimate_error=False)
+
+
+def run_request(
+    asked: Request,
+    outputs: tuple[str, ...],
+    folder: str,
+    *,
+    tell: Callable[[dict[str, Any]], None],
+    also: tuple[Any, ...],
+) -> dict[str, Any]:
+    """Answer a request; return the record of the answer, with other outputs in ``beside``.
+
+    `outputs` are names of files, "words" or "drawn"; `folder` has the files that were sent.
+    """
+    known = {_WORDS, _DRAWN, *(output.name for output in asked.outputs)}
+    if unknown := [name for name in outputs if name not in known]:
+        raise InputError(
+            f"outputs must be among {', '.join(sorted(known))}, got {unknown[0]!r:.60}"
+        )
+    wanted = frozenset(outputs) | {output.name for output in asked.outputs if output.needed}
+    caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, sent=True)
+    beside: dict[str, Any] = {}
+    try:
+        # so that files have their names in answers, and not the place where they lie
+        with chdir(folder):
+            answer = answered(asked, caller)
+            files = {
+                output.name: _content(answer, output)
+                for output in asked.outputs
+                if output.name in wanted & {*answer.files, *answer.pictures}
+            }
+            beside |= {"files": files} if files else {}
+            if _WORDS in wanted:
+                beside |= {"words": str(answer), "notes": list(answer.notes)}
+            if _DRAWN in wanted and answer.drawn is not None:
+                beside["drawn"] = plain(answer.drawn())
+            return answer.record() | ({"beside": beside} if beside else {})
+    except InputError as error:
+        # surfaces know their file by its whole path
+        error.args = (str(error).replace(f"{os.path.realpath(folder)}{os.sep}", ""),)
+        raise
+    except FileNotFoundError as error:
+        raise InputError(f"there is no file {error.filename}") from None
+    except OSError as error:
+        raise InputError(str(error)) from None
+
+
+def _content(answer: Answer, output: Output) -> str:
+    """Return a file as text: a picture as SVG, a binary file in base 64."""
+    stream = io.BytesIO()
+    if output.name in answer.pictures:
+        answer.pictures[output.name]().savefig(stream, format="svg")
+    else:
+        write(answer.files[output.name], stream)
+    content = stream.getvalue()
+    binary = output.kind == "binary"
+    return base64.b64encode(content).decode() if binary else content.decode("utf-8")

@@ -34,8 +34,6 @@ _MOST_ROWS = 100_000
 Told = Mapping[str, Any]
 # Content of a file: text, a table of columns or of rows with the same keys, or what writes it.
 Content = str | Mapping[str, Any] | Sequence[Mapping[str, Any]] | Callable[["Target"], None]
-# Outputs besides files that HTTP and the page may request of every answer.
-WORDS, DRAWN = "words", "drawn"
 
 
 @dataclass(frozen=True)
