@@ -82,22 +82,22 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
     # all values are text; the request converts them
     kind: Any = list[str] if is_many(info) else str
     told, needed, default = option.words, info.is_required(), info.default
-    if option.argument:
-        words = typer.Argument(
-            metavar=option.metavar or name.upper(), help=told, show_default=False
-        )
-        return _parameter(name, kind if needed else kind | None, words, needed=needed)
+    how: dict[str, Any] = {"help": told, "show_default": False}
     flags = option.flags or (flag_of(name, option),)
-    if info.annotation is bool:
+    if option.argument:
+        words = typer.Argument(metavar=option.metavar or name.upper(), **how)
+    elif info.annotation is bool:
+        kind = bool
         flags = (f"{flags[0]}/--no-{flags[0].removeprefix('--')}",) if default is True else flags
-        words = typer.Option(*flags, help=told, show_default=bool(default))
-        return _parameter(name, bool | None, words)
-    if not needed and default not in (None, (), "", 0):
-        told += f" [default: {default}]"
-    usual = "NUMBER" if info.annotation is int or isinstance(option, Number) else "TEXT"
-    usual = "QUANTITY" if getattr(option, "unit", "1") != "1" else usual
-    usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
-    words = typer.Option(*flags, metavar=option.metavar or usual, help=told, show_default=False)
+        how["show_default"] = bool(default)
+        words = typer.Option(*flags, **how)
+    else:
+        if not needed and default not in (None, (), "", 0):
+            how["help"] += f" [default: {default}]"
+        usual = "NUMBER" if info.annotation is int or isinstance(option, Number) else "TEXT"
+        usual = "QUANTITY" if getattr(option, "unit", "1") != "1" else usual
+        usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
+        words = typer.Option(*flags, metavar=option.metavar or usual, **how)
     return _parameter(name, kind if needed else kind | None, words, needed=needed)
 
 
@@ -134,41 +134,27 @@ def _run(kind: type[Request], said: dict[str, Any]) -> None:
 
 
 def _problem(option: Contact, said: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the input for a problem: an indenter with flags, or a file."""
+    """Return the input for a problem: an indenter with flags, or a file; and a table of cases."""
     flags = {n.removeprefix("of_"): x for n, x in said.items() if n.startswith("of_") and x}
     named = [said["problem_"]] if option.spelling == "case" else list(said["problem_"] or ())
-    if named[:1] == ["case"]:
-        del named[0]
-    found: dict[str, Any] = {}
-    endings = (".csv", ".xlsx") if option.table else ()
-    tables = [name for name in named if Path(name).suffix.lower() in endings]
-    files = [name for name in named if name not in tables and name not in option.indenters]
-    words = [name for name in named if name in option.indenters]
-    for several in (tables, files, words):
-        if len(several) > 1:
-            raise InputError(f"give one of each kind, got {' and '.join(several)}")
-    if tables:
-        if named[0] == tables[0] and len(named) > 1:
-            raise InputError(f"give the problem {named[1]} before its table of cases {named[0]}")
-        found[option.table] = tables[0]
-        if not files and not words:
-            if flags:
-                raise InputError(f"{tables[0]} is a table of cases; leave out {quoted(flags)}")
-            return found
-    if files and not Path(files[0]).suffix and option.spelling == "word":
-        known = ", ".join(option.indenters)
-        raise InputError(f"give one of {known}, or a file CASE.toml, got {files[0]!r}")
-    of_word = {"indenter": words[0]} if words else {}
-    if files:
-        return found | {"problem": {"case": files[0], **of_word, **flags}}
-    if not of_word and option.spelling == "flags":
-        of_word = {"indenter": _first_with(option, flags)}
-    return found | {"problem": of_word | flags} if of_word else found
-
-
-def _first_with(option: Contact, given: Mapping[str, Any]) -> str:
-    """Return the first indenter that has all flags that were given."""
-    return next(
-        (word for word in option.indenters if given.keys() <= flags_of((word,)).keys()),
-        option.indenters[0],
-    )
+    found: dict[str, str] = {}
+    for word in named[named[:1] == ["case"] :]:
+        is_table = option.table and Path(word).suffix.lower() in (".csv", ".xlsx")
+        kind = "indenter" if word in option.indenters else option.table if is_table else "case"
+        if kind in found:
+            raise InputError(f"give one of each kind, got {found[kind]} and {word}")
+        if option.table in found:
+            table = found[option.table]
+            raise InputError(f"give the problem {word} before its table of cases {table}")
+        if kind == "case" and not Path(word).suffix and option.spelling == "word":
+            known = ", ".join(option.indenters)
+            raise InputError(f"give one of {known}, or a file CASE.toml, got {word!r}")
+        found[kind] = word
+    table = {option.table: found.pop(option.table)} if option.table in found else {}
+    if not found and option.spelling == "flags":
+        # the first indenter that has all flags that were given
+        has_all = (w for w in option.indenters if flags.keys() <= flags_of((w,)).keys())
+        found["indenter"] = next(has_all, option.indenters[0])
+    if not found and table and flags:
+        raise InputError(f"{table[option.table]} is a table of cases; leave out {quoted(flags)}")
+    return table | ({"problem": found | flags} if found else {})

@@ -20,13 +20,6 @@ from .options import quoted
 INDENTERS = ("sphere", "punch", "profile", "disc")
 ROUND = ("sphere", "profile", "disc")
 _BY_RADIUS = ("sphere", "disc")
-_STARTS = ("preload", "preload_force", "preload_radius", "apart")
-# What states the same as another.
-_INSTEAD = {
-    "strength": "equilibrium_gap",
-    "points": "profile_exponent",
-    "contact_modulus": "rubbery_modulus",
-}
 
 
 @dataclass(frozen=True)
@@ -234,56 +227,37 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
             "problem in one of the two",
             field=pure[0],
         )
-    tables: dict[str, dict[str, Any]] = {"material": {}, "interface": {}, word: {}}
-    tables["protocol" if in_si else "groups"] = {}
+    test = "protocol" if in_si else "groups"
+    tables: dict[str, dict[str, Any]] = {"material": {}, "interface": {}, word: {}, test: {}}
     for name, value in said.items():
         table, _, key = _place(name, word, in_si=in_si).partition(".")
         value = os.fspath(value) if isinstance(value, os.PathLike) else value
         tables.setdefault(table, {})[key] = f"apart {value}" if key == "start" else value
     if word == "disc" and not in_si:
         tables[word]["radius"] = 1.0
-    if word == "punch":
-        tables.setdefault("layer", {})
-    if "layer" in tables:
-        tables["layer"]["base"] = "bonded" if "bonded" in said else "frictionless"
+    if word == "punch" or "layer" in tables:
+        base = "bonded" if "bonded" in said else "frictionless"
+        tables.setdefault("layer", {})["base"] = base
     tables["interface"] |= table_of_words(_text(said, "law", "lennard-jones"), nouns.laws)
     solid = _text(said, "material", "sls" if word == "punch" else "power-law")
     tables["material"] = table_of_solid(solid, tables["material"], nouns, in_si=in_si)
     if solid == "elastic" and not in_si and "move" not in said:
         # an elastic solid has no time: the unit is that in which the drive travels h0
         tables["groups"].setdefault("rate", 1.0)
-    _refuse_missing(word, said, tables, nouns, in_si=in_si)
+    # what the reader would name by a key that is no flag
+    needed = [] if "move" in said else ["protocol.speed" if in_si else "groups.rate"]
+    if not in_si:
+        needed.append("groups.cohesion" if word == "punch" else "groups.tabor")
+    elif "passport" not in tables["material"]:
+        needed.append("material.rubbery_modulus")
+    if word == "profile" and "file" not in tables[word]:
+        needed.append("profile.exponent")
+    places = (place.split(".") for place in needed)
+    if missing := [f"{of}.{key}" for of, key in places if key not in tables[of]]:
+        flags = [_flags_by_place(word, in_si=in_si)[place] for place in missing]
+        verb = "are" if flags[1:] else "is"
+        raise InputError(f"{quoted(flags)} {verb} missing", field=flags[0])
     return tables
-
-
-def _refuse_missing(
-    word: str, said: Mapping[str, Any], tables: Mapping[str, Any], nouns: Any, *, in_si: bool
-) -> None:
-    """Name all flags that are missing at once; the reader names those of one table."""
-    from viscotack.cards import cards
-
-    kinds = {word: nouns.shapes[word], "interface": nouns.laws[tables["interface"]["law"]]}
-    kinds["material"] = nouns.materials.get(tables["material"].get("model"))
-    fields = [(x, n, f) for x, kind in kinds.items() if kind for n, f in cards(kind).items()]
-    needed = [f"{table}.{name}" for table, name, field in fields if field.needed]
-    needed += ["layer.thickness"] if "layer" in tables else []
-    needed += ["groups.cohesion" if word == "punch" else "groups.tabor"] * (not in_si)
-    needed += [] if "move" in said else ["protocol.speed" if in_si else "groups.rate"]
-    flags, given = _flags_by_place(word, in_si=in_si), {*said, *map(_INSTEAD.get, said)}
-    missing = [
-        flags[place]
-        for place in needed
-        if flags.get(place, word) not in (word, *given)
-        and place.partition(".")[2] not in tables[place.partition(".")[0]]
-    ]
-    starts = [name for name in _STARTS if name in said]
-    of = f"exactly one of {quoted(n for n in _STARTS if n in flags_of((word,)))}"
-    if missing:
-        more = "" if starts else f"; also give {of}"
-        verb = "are" if missing[1:] else "is"
-        raise InputError(f"{quoted(missing)} {verb} missing{more}", field=missing[0])
-    if len(starts) != 1:
-        raise InputError(f"give {of}, got {quoted(starts) or 'none'}")
 
 
 def of_si_alone(said: Mapping[str, Any]) -> list[str]:
