@@ -13,10 +13,8 @@ def application() -> Any:
     The command-line library is imported only here, because its import is slow; ``import viscotack``
     does not import it.
     """
-    from viscotack.app.cli.commands import add_commands
-
-    from . import page, study  # noqa: F401  # each adds its command
-    from .commands import application
+    from . import page  # noqa: F401  # adds its command
+    from .commands import add_commands, application
 
     add_commands()
     return application

@@ -43,24 +43,21 @@ def checked(
         If a file is missing or used twice, has the ending of another format, exists or cannot be
         written.
     """
-    found = {
-        output: Path(output.usual) if file is None and output.usual and not as_json else file
-        for output, file in files.items()
-    }
-    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
-        raise InputError(f"{missing[0]} is missing; give the output file")
-    given = {output: file for output, file in found.items() if file is not None}
-    for output, file in given.items():
-        flag = output.flag
-        if is_standard_output(file):
+    found: dict[Output, Path | None] = {}
+    for output, file in files.items():
+        flag, usual = output.flag, output.usual and not as_json
+        file = found[output] = Path(output.usual) if file is None and usual else file
+        if file is None:
+            if output.needed:
+                raise InputError(f"{flag} is missing; give the output file")
+        elif is_standard_output(file):
             if output.kind != "text" or as_json:
                 why = "is for text" if output.kind != "text" else "has the answer of --json"
                 raise InputError(f"{flag} {file}: standard output {why}; give a file name")
         else:
             if output.kind == "picture":
                 check_format(file)
-            known = ("", *output.endings)
-            if output.endings and file.suffix.lower() not in known:
+            if output.endings and file.suffix.lower() not in ("", *output.endings):
                 raise InputError(f"{flag} {file}: the ending must be {' or '.join(output.endings)}")
             check_target(file)
             # an empty file, of mktemp for example, holds nothing to lose
@@ -68,13 +65,12 @@ def checked(
                 raise InputError(
                     f"{flag} {file} exists; give another name, or --force to replace it"
                 )
-    for (one, first), (other, second) in combinations(given.items(), 2):
+    given = [(output.flag, file) for output, file in found.items() if file is not None]
+    for (one, first), (other, second) in combinations(given, 2):
         if same_file(first, second):
             raise InputError(
-                f"{one.flag} {first} and {other.flag} {second} are the same file; give two "
-                "different names"
+                f"{one} {first} and {other} {second} are the same file; give two different names"
             )
-
     return found
 
 
@@ -175,9 +171,17 @@ def carry_out(
 
 @contextmanager
 def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
-    """Show a progress bar on standard error if it is a terminal; yields its update function."""
+    """Show a progress bar on standard error if it is a terminal, else lines; yields its update."""
+    last = monotonic()
+
+    def tell_lines(told: Mapping[str, Any]) -> None:
+        nonlocal last
+        if "words" in told and (told.get("urgent") or monotonic() - last > LINES):
+            last = monotonic()
+            typer.echo(harmless(told["words"]), err=True)
+
     if not sys.stderr.isatty():
-        yield _lines()
+        yield tell_lines
         return
     from rich import progress as rich
     from rich.console import Console
@@ -195,17 +199,3 @@ def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
                 bar.update(task, completed=told["share"], visible=True, **said)
 
         yield tell
-
-
-def _lines() -> Callable[[Mapping[str, Any]], None]:
-    """Return a function that prints progress lines, for output that is not a terminal."""
-    last = monotonic()
-
-    def tell(told: Mapping[str, Any]) -> None:
-        nonlocal last
-        is_due = told.get("urgent") or monotonic() - last > LINES
-        if "words" in told and is_due:
-            last = monotonic()
-            typer.echo(harmless(told["words"]), err=True)
-
-    return tell
