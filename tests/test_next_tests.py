@@ -112,13 +112,13 @@ def test_a_test_beyond_the_theory_is_not_ranked(fit):
 
 def test_the_operation_ranks_every_combination(tmp_path, fit, monkeypatch):
     study = SimpleNamespace(fit=fit, survey=SimpleNamespace(reasons=(), cautions=()), cautions=())
-    monkeypatch.setattr("viscotack.app.operations.next_test.fitted", lambda *given: study)
+    monkeypatch.setattr("viscotack.app.operations.forecast.fitted", lambda *given: study)
     (tmp_path / "study.toml").write_text("")
     asked = {"study": str(tmp_path / "study.toml"), "speed": ["1 mm/s", "10 um/s"]}
     answer = vt.ask("next-test", **asked, forecast_speed=["30 mm/s"], preload=["1 mN", "4 mN"])
     record = answer.record()
     assert len(record["tests"]) == 4 and record["tests"][0]["speed_m_per_s"] == 1e-3
-    answer.files["csv"](tmp_path / "tests.csv")
+    answer.write("csv", tmp_path / "tests.csv")
     assert (tmp_path / "tests.csv").read_text().count("\n") == 5
     left, _ = draw_next_tests(answer.found).axes
     assert in_si(left.xaxis, left.lines[0].get_xdata()) == pytest.approx([1e-5, 1e-3])

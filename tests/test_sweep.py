@@ -122,7 +122,7 @@ def test_a_workbook_has_units_in_headings_or_cells_names_and_empty_rows(case, qu
         assert [row["inputs"] for row in rows] == expected
         assert (rows[1]["reason"], answer.status) == ("empty row", 0)
         assert any("case 3: Radius [mm] of 2 m" in note for note in answer.notes)
-        answer.files["csv"](tmp_path / "rows.csv")
+        answer.write("csv", tmp_path / "rows.csv")
         written = rows_of(tmp_path / "rows.csv")
         assert [row["Lens"] for row in written] == ["a", "", "b"]
         assert [float(row["Radius [mm]"] or 0) for row in written] == [1, 0, 2000]

@@ -16,7 +16,7 @@ from typing import Any
 import typer
 
 from viscotack.app.operations.options import Output
-from viscotack.app.operations.request import Answer, Caller, Request, answered, write
+from viscotack.app.operations.request import Answer, Caller, Request, answered
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
 from viscotack.files.whole import NotWritten, check_target, is_standard_output, same_file
@@ -97,7 +97,7 @@ def finish(
                 save_figure(answer.pictures[output.name](), file)
             else:
                 target = typer.get_binary_stream("stdout") if to_output else file
-                write(answer.files[output.name], target)
+                answer.write(output.name, target)
         except BrokenPipeError as error:
             reader_left = error
         except OSError as error:

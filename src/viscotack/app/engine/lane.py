@@ -16,7 +16,7 @@ from contextlib import chdir
 from typing import Any
 
 from viscotack.app.operations.options import Output
-from viscotack.app.operations.request import Answer, Caller, Request, answered, plain, write
+from viscotack.app.operations.request import Answer, Caller, Request, answered, plain
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.system import FRESH, Processes, begin_worker
 
@@ -230,7 +230,7 @@ def _content(answer: Answer, output: Output) -> str:
     if output.name in answer.pictures:
         answer.pictures[output.name]().savefig(stream, format="svg")
     else:
-        write(answer.files[output.name], stream)
+        answer.write(output.name, stream)
     content = stream.getvalue()
     binary = output.kind == "binary"
     return base64.b64encode(content).decode() if binary else content.decode("utf-8")

@@ -50,7 +50,7 @@ SECTIONS: Mapping[str, Mapping[str, tuple[str, str]]] = {
         "identify curves": ("identify", "Fit work and modulus to every curve of a folder."),
         "identify dwell": ("identify", "Identify the growth with contact time."),
         "forecast": ("forecast", "Forecast pull-off forces from a measured rate series."),
-        "next-test": ("next_test", "Rank tests by how much each narrows a forecast."),
+        "next-test": ("forecast", "Rank tests by how much each narrows a forecast."),
         "report": ("forecast", "Write a report of a rate series as a web page."),
     },
     "Design": {

@@ -2,12 +2,11 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 
-from .flags import INDENTERS
-from .options import File, binary_file, contact, csv_file, file_name, number, option, switch
+from .options import binary_file, case, csv_file, file_name, input_file, number, option, switch
 from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
@@ -22,8 +21,6 @@ _OF_PLANS = "a plan names other files, and Python files that are executed"
 # Exit status of an interrupted run, and of a complete run with failed cases.
 _STOPPED, _SOME_FAILED = 1, 4
 
-AFolder = Annotated[Path, File("The folder of a campaign.", metavar="DIR", argument=True)]
-
 
 class Inputs(Request):
     """List the numbers of a problem that a plan can set, with their names and current values.
@@ -34,13 +31,7 @@ class Inputs(Request):
     word: ClassVar = "campaign inputs"
     takes_own: ClassVar = True
 
-    problem: Any = contact(
-        "A problem in SI, or a rough surface.",
-        indenters=INDENTERS,
-        spelling="case",
-        rough=True,
-        default=...,
-    )
+    problem: Any = case("A problem in SI, or a rough surface.", rough=True)
 
     def answer(self, caller: Caller) -> Answer:
         """List the numbers of the problem by path."""
@@ -69,9 +60,7 @@ class DescribePlan(Request):
     takes_own: ClassVar = True
     local: ClassVar = _OF_PLANS
 
-    plan: Path = file_name(
-        f"{_PLAN}; docs/campaigns.md describes both.", metavar="PLAN", argument=True, default=...
-    )
+    plan: Path = input_file(f"{_PLAN}; docs/campaigns.md describes both.", "PLAN")
 
     def answer(self, caller: Caller) -> Answer:
         """Read the plan and count its cases."""
@@ -188,7 +177,7 @@ class Status(Request):
     word: ClassVar = "campaign status"
     local: ClassVar = _OF_FOLDERS
 
-    folder: AFolder
+    folder: Path = input_file("The folder of a campaign.", "DIR")
 
     def answer(self, caller: Caller) -> Answer:
         """Count the stored results and failures."""
@@ -214,9 +203,7 @@ class Merge(Request):
     word: ClassVar = "campaign merge"
     local: ClassVar = _OF_FOLDERS
 
-    folders: tuple[Path, ...] = file_name(
-        "Folders of campaigns.", metavar="DIR...", argument=True, default=...
-    )
+    folders: tuple[Path, ...] = input_file("Folders of campaigns.", "DIR...")
     out: Path = file_name("Folder of the merged campaign.", metavar="DIR", default=...)
 
     def answer(self, caller: Caller) -> Answer:
@@ -244,7 +231,7 @@ class Export(Request):
     )
     local: ClassVar = _OF_FOLDERS
 
-    folder: AFolder
+    folder: Path = input_file("The folder of a campaign.", "DIR")
     trajectories: bool = switch("Write the points of each curve to CSV too.")
 
     def answer(self, caller: Caller) -> Answer:

@@ -8,10 +8,9 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .flags import INDENTERS
-from .options import Output, binary_file, contact, csv_file, number, option, picture
+from .options import Output, binary_file, case, csv_file, number, option, picture
 from .parts.record_words import read, rows_of
-from .request import Answer, Caller, Content, Request, write
+from .request import Answer, Caller, Content, Request, write_file
 from .simulate import Accuracy, Limit
 
 if TYPE_CHECKING:
@@ -36,14 +35,8 @@ class Control(Request):
 
     word: ClassVar = "control"
     outputs: ClassVar = (
-        Output(
-            "c", "Write force, pull-off force and controller as a header of C99.", endings=(".h",)
-        ),
-        binary_file(
-            "fmu",
-            "Write an FMU for co-simulation, FMI 3.0, by the C compiler of this machine.",
-            ".fmu",
-        ),
+        Output("c", "Write force and controller as a header of C99.", endings=(".h",)),
+        binary_file("fmu", "Write an FMU 3.0, by the C compiler of this machine.", ".fmu"),
         csv_file("Write a row for each speed: pull-off force and travels."),
         csv_file("Write the force at each speed and 201 even depths, for lookup tables.", "forces"),
         csv_file("Write a row for each tick of the release.", "ticks"),
@@ -51,25 +44,16 @@ class Control(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Any = contact(
-        "The contact in SI, on a rigid machine; the speed of its protocol does not matter.",
-        indenters=INDENTERS,
-        spelling="case",
-        default=...,
-    )
+    problem: Any = case("The contact in SI, on a rigid machine; its speed does not matter.")
     slowest: float = number("Slowest speed of the contact.", "m/s", above=0, default=...)
     fastest: float = number("Fastest speed of the contact.", "m/s", above=0, default=...)
     tolerance: float = number(
-        "Largest miss of the interpolation, over the pull-off force.",
-        above=0,
-        most=0.2,
-        default=0.01,
+        "Largest miss over the pull-off force.", above=0, most=0.2, default=0.01
     )
     name: str = option("Name of the model, and prefix of the functions in C.", default="contact")
     wanted: float | None = number("Pull-off force of the release.", "N", above=0)
     stiffness: float | None = number("Stiffness of the rig; rigid if left out.", "N/m", above=0)
     period: float = number("Time between two ticks of the controller.", "s", above=0, default=1e-3)
-    drive_limit: float | None = number("Largest speed of the drive.", "m/s", above=0)
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 120.0
 
@@ -98,7 +82,7 @@ class Control(Request):
         )
         release = released = None
         if self.wanted is not None:
-            limits = self.stiffness or inf, self.period, self.drive_limit or inf
+            limits = self.stiffness or inf, self.period
             release = Release(table, self.wanted, *limits)
             released = let_go(problem, release, **self.values("accuracy", "time_limit"))
         speed = None if release is None else release.speed
@@ -106,7 +90,7 @@ class Control(Request):
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
             "fmu": lambda to: write_whole(to, fmu(table, self.name)),
             "csv": _rows(table),
-            "forces": lambda to: write(_forces(table), to),
+            "forces": lambda to: write_file(_forces(table), to),
         }
         if released is not None:
             names = ("time_s", "drive_m", "depth_m", "force_N", "drive_speed_m_per_s")

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .options import csv_file, file_name, option, picture, switch
+from .options import csv_file, input_file, option, picture, switch
 from .parts.record_words import read
 from .predict import OF_METHOD
 from .request import Answer, Caller, Request
@@ -35,11 +35,9 @@ class OfDesign(Request):
     )
     takes_own: ClassVar = True
 
-    file: Path = file_name(
-        "The [targets], [bounds] of variables, the [interface], and [material] or [[materials]].",
-        metavar="DESIGN.toml",
-        argument=True,
-        default=...,
+    file: Path = input_file(
+        "[targets], [bounds] of variables, [interface], and [material] or [[materials]].",
+        "DESIGN.toml",
     )
     confirm: int = option("Number of designs that are simulated.", default=3, ge=0, le=3)
     seed: int = option("Seed of the search.", default=0, ge=0, le=2**32 - 1)
@@ -153,12 +151,7 @@ class OfArray(Request):
     )
     takes_own: ClassVar = True
 
-    file: Path = file_name(
-        "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
-        metavar="ARRAY.toml",
-        argument=True,
-        default=...,
-    )
+    file: Path = input_file("[pad], [array] and [pull]; perhaps [backing], [hold].", "ARRAY.toml")
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Limit = 60.0
 
@@ -256,11 +249,8 @@ class OfWindow(Request):
     )
     takes_own: ClassVar = True
 
-    file: Path = file_name(
-        "The contacts [stamp], [donor] and [receiver], and [pull] with speeds and preloads.",
-        metavar="WINDOW.toml",
-        argument=True,
-        default=...,
+    file: Path = input_file(
+        "[stamp], [donor] and [receiver], and [pull] with speeds and preloads.", "WINDOW.toml"
     )
     simulate: bool = switch(
         "Simulate both contacts in one march where steady cracks do not decide (seconds)."

@@ -3,7 +3,7 @@
 from math import isinf
 from typing import Any, ClassVar
 
-from .options import contact, main_file, option
+from .options import case, main_file, option
 from .request import Answer, Caller, Request
 
 
@@ -22,15 +22,8 @@ class ExportContact(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Any = contact(
-        "A sphere on a half-space in SI; its protocol does not matter.",
-        indenters=("sphere",),
-        spelling="case",
-        default=...,
-    )
-    name: str = option(
-        "Type of the contact, and prefix of the functions in C.", metavar="NAME", default="contact"
-    )
+    problem: Any = case("A sphere on a half-space in SI; its protocol does not matter.")
+    name: str = option("Type of the contact, and prefix of the functions.", default="contact")
 
     def answer(self, caller: Caller) -> Answer:
         """Reduce the contact and write it."""

@@ -14,10 +14,8 @@ from typing import Any
 
 from viscotack.errors import InputError
 
-from .options import quoted
+from .options import INDENTERS, quoted
 
-# Words of what can be stated by flags.
-INDENTERS = ("sphere", "punch", "profile", "disc")
 ROUND = ("sphere", "profile", "disc")
 _BY_RADIUS = ("sphere", "disc")
 

@@ -1,7 +1,8 @@
-"""The operations ``forecast`` and ``report``: forecasts of pull-off forces from a study."""
+"""The operations ``forecast``, ``report`` and ``next-test``, from the study of a rate series."""
 
+from itertools import product
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
-from .options import File, csv_file, main_file, number, picture, text
+from .options import csv_file, input_file, main_file, number, option, picture, text
 from .parts.record_words import read
 from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
@@ -19,17 +20,15 @@ from .simulate import HowLong
 _MOST = 50  # speeds between two ends
 
 
-StudyFile = Annotated[
-    Path,
-    File(
-        "Study written by `viscotack identify rates ... -o study.toml`.",
-        metavar="STUDY",
-        argument=True,
-    ),
-]
+_STUDY = "Study written by `viscotack identify rates ... -o study.toml`."
 
 
-def speeds_of(value: Any) -> tuple[float, ...]:
+def _speeds(words: str, default: Any = ()) -> Any:
+    """Declare speeds: each one, or a range."""
+    return text(words, metavar="SPEED|FROM..TO", to=_speeds_of, default=default)
+
+
+def _speeds_of(value: Any) -> tuple[float, ...]:
     """Return the speeds [m/s] of an option: one, or a range."""
     if isinstance(value, list | tuple):
         return tuple(parse(one, "m/s") for one in value)
@@ -46,23 +45,14 @@ def speeds_of(value: Any) -> tuple[float, ...]:
 class Wish(Request):
     """A forecast from a study at some speeds and conditions."""
 
-    study: StudyFile
-
-    speed: tuple[Any, ...] = text(
-        'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
-        "the range of the series.",
-        metavar="SPEED|FROM..TO",
-        to=speeds_of,
-        default=(),
+    study: Path = input_file(_STUDY, "STUDY")
+    speed: tuple[Any, ...] = _speeds(
+        'Speed, "30 um/s", or range, "1 um/s..1 mm/s"; repeatable. Default: that of the series.'
     )
     preload: float | None = number("Preload; default: that of the series.", "N")
-    temperature: float | None = number(
-        'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
-        "of the times.",
-        "K",
-    )
+    temperature: float | None = number('Temperature, "40 degC"; default: that of the series.', "K")
     dwell: float | None = number(
-        "Dwell time under the preload; default: full relaxation. Needs --approach-speed.", "s"
+        "Dwell under the preload; default: full relaxation. Needs --approach-speed.", "s"
     )
     approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s")
     time_limit: HowLong = None
@@ -71,14 +61,18 @@ class Wish(Request):
         """Refuse conditions that the fit of a study will not know."""
         for name in ("temperature", "dwell", "approach_speed"):
             if isinstance(study, IdentifyEdge) and getattr(self, name) is not None:
-                raise InputError(
-                    f"leave out `{name}`: an edge law knows relaxed contacts at the "
-                    "temperature of its tests only",
-                    field=name,
-                )
+                why = "an edge law knows relaxed contacts at the temperature of its tests only"
+                raise InputError(f"leave out `{name}`: {why}", field=name)
 
-    def of_fit(self, fit: Any) -> Any:
-        """Compute the forecast from a fitted rate series."""
+    def forecast(self, caller: Caller, *kinds: type[Series]) -> tuple[Identified, Any]:
+        """Fit the interface to the files of the study; return it and the forecast."""
+        from viscotack.clock import limited
+
+        with limited(self.time_limit):
+            found = fitted(self.study, caller, kinds, self)
+            return found, self._of_fit(found.fit)
+
+    def _of_fit(self, fit: Any) -> Any:
         from viscotack.identify import EdgeFit, forecast_edge, forecast_rates
 
         if self.speed:
@@ -104,16 +98,13 @@ class Forecast(Wish):
     """
 
     word: ClassVar = "forecast"
-    outputs: ClassVar = (
-        csv_file("Write a row for each speed."),
-        picture(),
-    )
+    outputs: ClassVar = (csv_file("Write a row for each speed."), picture())
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the series of the study and forecast from it."""
         from viscotack.plot.interface import draw_rate_series
 
-        found, forecast = _forecast(self, caller, IdentifyRates, IdentifyEdge)
+        found, forecast = self.forecast(caller, IdentifyRates, IdentifyEdge)
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
@@ -139,7 +130,7 @@ class Report(Wish):
         """Fit, forecast and render the page."""
         from .parts.report import page
 
-        found, forecast = _forecast(self, caller, IdentifyRates)
+        found, forecast = self.forecast(caller, IdentifyRates)
         return Answer(
             (found, forecast),
             data=_record(found.fit, forecast, forecast_rows(forecast)),
@@ -147,17 +138,6 @@ class Report(Wish):
             files={"output": page(found, forecast)},
             notes=refusals(found.survey),
         )
-
-
-def _forecast(
-    asked: Forecast | Report, caller: Caller, *kinds: type[Series]
-) -> tuple[Identified, Any]:
-    """Fit the interface to the files of a study; return it and the forecast."""
-    from viscotack.clock import limited
-
-    with limited(asked.time_limit):
-        found = fitted(asked.study, caller, kinds, asked)
-        return found, asked.of_fit(found.fit)
 
 
 def fitted(
@@ -187,3 +167,103 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
         "forecast": rows,
         "words": [*fit.words, *forecast.words],
     }
+
+
+class NextTest(Request):
+    """Rank tests by how much each narrows a forecast or the interface.
+
+    Candidates are all combinations of --speed, --preload, --radius and --dwell. The posterior of
+    the study gives the variance that each would leave, with the noise of the rig, before any is
+    made. The wanted answer is the force at --forecast-speed; without it, work of adhesion and
+    range. The answer also lists the best sequence of tests.
+
+    Example: viscotack next-test study.toml --speed "0.1 um/s..10 mm/s" --preload "0.5 mN"
+    --preload "5 mN" --forecast-speed "50 mm/s" --plot next.png
+    """
+
+    word: ClassVar = "next-test"
+    outputs: ClassVar = (
+        csv_file("Write a row for each test."),
+        picture("Draw what each test leaves of the uncertainty."),
+    )
+
+    study: Path = input_file(_STUDY, "STUDY")
+    speed: tuple[Any, ...] = _speeds(
+        'Speed of a test, "30 um/s", or a range "1 um/s..1 mm/s"; can be repeated.', default=...
+    )
+    preload: tuple[float, ...] = number(
+        "Preload of a test; repeatable. Default: that of the series.", "N", above=0, default=()
+    )
+    radius: tuple[float, ...] = number(
+        "Sphere of a test; repeatable. Default: that of the series.", "m", above=0, default=()
+    )
+    dwell: tuple[float, ...] = number(
+        "Dwell; repeatable. Default: full relaxation. Needs --approach-speed.", "s", default=()
+    )
+    approach_speed: float | None = number("Approach speed; needs --dwell.", "m/s", above=0)
+    forecast_speed: tuple[Any, ...] = _speeds(
+        "Speed of the wanted forecast, or a range; repeatable. Default: the interface is wanted."
+    )
+    forecast_preload: float | None = number("Preload of the wanted forecast.", "N", above=0)
+    forecast_radius: float | None = number("Sphere radius of the wanted forecast.", "m", above=0)
+    noise: float | None = number(
+        'Relative standard deviation of a force, "3 %"; default: that of the series.', above=0
+    )
+    repeats: int = option("Repetitions of each test.", default=1, ge=1, le=1000)
+    count: int = option("Length of the best sequence.", default=3, ge=1, le=20)
+    time_limit: HowLong = None
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the series of the study and rank the tests."""
+        from viscotack.clock import limited
+        from viscotack.identify import Trial, next_tests
+        from viscotack.identify.ranked_tests import INTERFACE
+        from viscotack.plot.interface import draw_next_tests
+
+        speeds, wanted_speeds = (
+            [v for some in given for v in some] for given in (self.speed, self.forecast_speed)
+        )
+        others = (x or (None,) for x in (self.preload, self.radius, self.dwell))
+        candidates = [
+            Trial(v, load, radius, dwell, self.approach_speed)
+            for v, load, radius, dwell in product(speeds, *others)
+        ]
+        wanted = [Trial(v, self.forecast_preload, self.forecast_radius) for v in wanted_speeds]
+        if not wanted and (self.forecast_preload or self.forecast_radius):
+            raise InputError("the wanted forecast needs its speed, `forecast_speed`")
+        with limited(self.time_limit):
+            study = fitted(self.study, caller)
+            found = next_tests(
+                study.fit,
+                candidates,
+                wanted=wanted or INTERFACE,
+                **self.values("noise", "repeats", "count"),
+            )
+        rows = [_row(each) for each in found.ranked]
+        record = {
+            "now": found.now,
+            "noise": found.noise,
+            "tests": rows,
+            "sequence": [_row(each) for each in found.sequence],
+            "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
+            "words": [*study.fit.words, *found.words],
+        }
+        return Answer(
+            found,
+            data=record,
+            words=record | {"tests": rows[:_SHOWN]},
+            files={"csv": rows},
+            pictures={"plot": lambda: draw_next_tests(found)},
+            notes=refusals(study.survey),
+        )
+
+
+# What a trial is, as columns.
+_TRIAL = ("speed_m_per_s", "preload_N", "radius_m", "dwell_s", "approach_speed_m_per_s")
+_SHOWN = 8  # tests in the text
+
+
+def _row(one: Any) -> dict[str, Any]:
+    """Return the row of a ranked test."""
+    forecast = {"force_N": one.force, "force_deviation": one.uncertain, "left": one.left}
+    return read(one.trial, *_TRIAL) | forecast

@@ -16,7 +16,7 @@ from viscotack.app.operations.options import (
     picture,
     switch,
 )
-from viscotack.app.operations.parts.record_words import read
+from viscotack.app.operations.parts.record_words import estimates, read
 from viscotack.app.operations.parts.rig import Rig, refusals
 from viscotack.app.operations.parts.solid import OnLayer, Solid, solid_of
 from viscotack.app.operations.request import Answer, Caller
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 Model = Literal["jkr", "dmt", "maugis", "carpick"]
 Radius = Annotated[float, Number('Sphere radius, "5.19 mm".', unit="m", example='"5.19 mm"')]
 Level = Annotated[float, Number("Confidence level of the intervals.")]
+Uncertainty = Annotated[
+    float | None, Number("Its standard uncertainty; needed with it.", unit="Pa")
+]
 
 
 class IdentifySlow(Rig):
@@ -52,20 +55,13 @@ class IdentifySlow(Rig):
     cycle: int = option("Number of the cycle in the files, from 1.", default=1, ge=1, le=10**6)
     model: tuple[Model, ...] = option("Models to compare; default: all four.", default=())
     against: Literal["radius", "depth"] | None = option(
-        "Abscissa: contact radius or depth; default: the radius if the file contains it."
+        "Abscissa; default: the contact radius if the file contains it."
     )
     contact_modulus: float | None = number(
-        'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
-        "uncertainty is known, else fitted.",
-        "Pa",
+        'Known E0* of the relaxed solid, "1.94 MPa"; default: by --material, else fitted.', "Pa"
     )
-    contact_modulus_uncertainty: float | None = number(
-        "Its standard uncertainty; needed with it.", "Pa"
-    )
-    material: Any = named(
-        "Passport or published name of the solid, to check that the test was slow; default: "
-        "not checked."
-    )
+    contact_modulus_uncertainty: Uncertainty = None
+    material: Any = named("The solid, to check that the test was slow.")
     level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
@@ -88,10 +84,13 @@ class IdentifySlow(Rig):
             material=None if self.material is None else solid_of(self.material, caller),
             level=self.level,
         )
+        record = slow_record(fit)
+        fits = [{n: x for n, x in one.items() if n != "intervals"} for one in record["fits"]]
+        shown = {name: record[name] for name in ("words", "against", "points", "evidence")}
         return Answer(
             fit,
-            data=slow_record(fit),
-            words=_slow_shown(slow_record(fit)),
+            data=record,
+            words=shown | {"fits": fits},  # the intervals are in the sentences
             pictures={"plot": lambda: draw_slow_test(fit)},
             notes=refusals(found),
         )
@@ -102,18 +101,16 @@ class Series(Rig):
 
     radius: Radius
     preload: float | None = number(
-        'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of retraction.',
-        "N",
+        'Preload, "1.5 mN"; default: the force at the start of retraction.', "N"
     )
     work_of_adhesion: float | None = number(
-        'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.', "J/m^2"
+        'Known from a slow test, "152 mJ/m2"; default: fitted.', "J/m^2"
     )
     work_of_adhesion_uncertainty: float | None = number(
         "Its standard uncertainty; needed with it.", "J/m^2"
     )
     scatter: float = number(
-        'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
-        default=0.0,
+        'Relative scatter of the force, "3 %", if there are no repeated tests.', default=0.0
     )
     level: Level = 0.9
 
@@ -171,22 +168,13 @@ class IdentifyRates(Series, OnLayer):
 
     material: Solid
     temperature: float | None = number(
-        'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
-        "passport.",
-        "K",
+        'Of all tests, "25 degC"; default: that in each file, else of the passport.', "K"
     )
     temperature_uncertainty: float | None = number(
-        'Standard uncertainty of this temperature, "0.5 K"; default: 2 K. It changes the times '
-        "of the material by the shift of the passport.",
-        "K",
+        'Its standard uncertainty, "0.5 K", which shifts the times; default: 2 K.', "K"
     )
-    curves: bool = switch(
-        "Fit whole curves by their travel between forces; one speed is then sufficient."
-    )
-    growth: bool = switch(
-        "Fit an interface that grows with the opening speed: amount, exponent, significance. "
-        "Takes minutes, which a forecast from the study does not repeat."
-    )
+    curves: bool = switch("Fit whole curves by their travel between forces; one speed suffices.")
+    growth: bool = switch("Fit an interface that grows with the opening speed (minutes).")
     history: bool = switch(
         "Compute the forces with approach and dwell of each test, mostly by simulation; "
         "default: contacts relaxed under the preload."
@@ -256,8 +244,7 @@ class IdentifyEdge(Series):
     )
 
     contact_modulus: float = number(
-        'E* of the solid at rest, "2 MPa". v0 is proportional to its cube root; forecasts with '
-        "a stiff rig do not depend on it.",
+        'E* at rest, "2 MPa"; forecasts with a stiff rig do not depend on it.',
         "Pa",
         above=0,
         example='"2 MPa"',
@@ -328,13 +315,6 @@ _SAID += ("intervals", "solutions", "describes_tests", "criterion", "criterion_o
 _SAID += ("ageing",)
 
 
-def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:
-    """Return what the text says of a record: the interval is in the sentences."""
-    fits = [{n: x for n, x in fit.items() if n != "intervals"} for fit in record["fits"]]
-    shown = {name: record[name] for name in ("words", "against", "points", "evidence")}
-    return shown | {"fits": fits}
-
-
 class IdentifyApproach(Rig):
     """Bound the range of attraction by the approach, before the jump into contact.
 
@@ -354,12 +334,9 @@ class IdentifyApproach(Rig):
     contact_modulus: float | None = number(
         'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.', "Pa"
     )
-    material: Any = named(
-        "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
-        "once is the other limit."
-    )
+    material: Any = named("The solid, instead of --contact-modulus.")
     work_of_adhesion: float | None = number(
-        'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"
+        'Known work, "50 mJ/m2"; default: between jump-in and pull-off.', "J/m^2"
     )
     level: Level = 0.9
 
@@ -384,23 +361,14 @@ class IdentifyApproach(Rig):
         )
         if not fits:
             raise InputError("; ".join(dict.fromkeys(refused)), field="files")
-        return Answer(
-            fits,
-            data={"approaches": [_record_of_approach(fit) for fit in fits]},
-            notes=(*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused))),
-        )
-
-
-def _record_of_approach(fit: Any) -> dict[str, Any]:
-    """Return the numbers of one approach."""
-    interval = fit.equilibrium_gap
-    names = ("bound_m", "level", "attraction_N", "noise_N", "jump_in_force_N", "step_m", "words")
-    return read(fit, *names) | {
-        "equilibrium_gap_m": fit.likely,
-        "interval_m": None if interval is None else [interval.low, interval.high],
-        "works_of_adhesion_J_m2": fit.works,
-        "samples_during_jump": fit.during,
-    }
+        names = ("bound_m", "level", "attraction_N", "noise_N", "jump_in_force_N", "step_m")
+        paths = {"equilibrium_gap_m": "likely", "works_of_adhesion_J_m2": "works"}
+        rows = [read(fit, *names, "words", **paths, samples_during_jump="during") for fit in fits]
+        for row, fit in zip(rows, fits, strict=True):
+            found = fit.equilibrium_gap
+            row["interval_m"] = None if found is None else [found.low, found.high]
+        notes = (*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused)))
+        return Answer(fits, data={"approaches": rows}, notes=notes)
 
 
 class IdentifyCurves(Rig):
@@ -423,15 +391,12 @@ class IdentifyCurves(Rig):
 
     radius: Radius
     model: Literal["jkr", "dmt"] = option(
-        "Elastic contact: jkr for soft and large spheres, dmt for stiff and small ones.",
-        default="jkr",
+        "jkr for soft and large spheres, dmt for stiff and small ones.", default="jkr"
     )
     contact_modulus: float | None = number(
         'Known E0* of the relaxed solid, "1.94 MPa"; default: fitted.', "Pa"
     )
-    contact_modulus_uncertainty: float | None = number(
-        "Its standard uncertainty; needed with it.", "Pa"
-    )
+    contact_modulus_uncertainty: Uncertainty = None
     level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
@@ -449,15 +414,10 @@ class IdentifyCurves(Rig):
             raise InputError("; ".join(refused), field="files")
         groups = group_curves(fits, self.level)
         rows, means = [_curve(fit) for fit in fits], [_group(group) for group in groups]
+        record = {**self.values("model", "level"), "curves": rows, "repeats": means}
         return Answer(
             groups,
-            data={
-                "model": self.model,
-                "level": self.level,
-                "curves": rows,
-                "repeats": means,
-                "refused": refused,
-            },
+            data=record | {"refused": refused},
             words={"model": self.model, "repeats": means},
             files={"csv": rows, "repeats": means},
             pictures={"plot": lambda: draw_curves(groups)},
@@ -466,32 +426,19 @@ class IdentifyCurves(Rig):
 
 
 def _curve(fit: Any) -> dict[str, Any]:
-    cycle = fit.cycle
-    return {
-        "file": cycle.source.path,
-        "cycle": cycle.number,
-        "speed_m_s": cycle.speed.value,
-        "pull_off_force_N": cycle.pull_off_force.value,
-        "work_of_adhesion_J_m2": fit.work_of_adhesion.value,
-        "work_of_adhesion_J_m2_uncertainty": fit.work_of_adhesion.uncertainty,
-        "contact_modulus_Pa": fit.contact_modulus.value,
-        "contact_modulus_Pa_uncertainty": fit.contact_modulus.uncertainty,
-        "scatter_N": fit.scatter,
-        "temperature_K": cycle.temperature,
-    }
+    row = read(fit.cycle, file="source.path", cycle="number", speed_m_s="speed.value")
+    row["pull_off_force_N"] = fit.cycle.pull_off_force.value
+    row |= estimates(fit, "work_of_adhesion_J_m2", "contact_modulus_Pa")
+    return row | {"scatter_N": fit.scatter, "temperature_K": fit.cycle.temperature}
 
 
 def _group(group: Any) -> dict[str, Any]:
     row: dict[str, Any] = {"speed_m_s": group.speed, "curves": len(group.curves)}
     units = {"work_of_adhesion": "J_m2", "contact_modulus": "Pa", "pull_off_force": "N"}
     for name, unit in units.items():
-        mean = getattr(group, name)
-        row |= {
-            f"{name}_{unit}_mean": mean.value,
-            f"{name}_{unit}_standard_deviation": mean.deviation,
-            f"{name}_low_{unit}": mean.low,
-            f"{name}_high_{unit}": mean.high,
-        }
+        ends = {f"{name}_{unit}_mean": "value", f"{name}_{unit}_standard_deviation": "deviation"}
+        ends |= {f"{name}_low_{unit}": "low", f"{name}_high_{unit}": "high"}
+        row |= read(getattr(group, name), **ends)
     return row | {"temperature_K": group.temperature}
 
 
@@ -529,21 +476,17 @@ class IdentifyDwell(Rig):
         fit = identify_dwell(
             times, forces, radius=self.radius, uncertainty=uncertainty, level=self.level
         )
+        tails = {"work_of_adhesion": "_J_m2", "reference_time": "_s"}
+        record = {
+            **read(fit, "times_s", "forces_N", "work_of_adhesion_J_m2", "growth_per_decade"),
+            "growth_interval": fit.interval,
+            **read(fit, "level", "scatter", "law", "words"),
+            "interface": {f"{name}{tails.get(name, '')}": x for name, x in fit.parameters.items()},
+            "reference_time_interval_s": fit.reference_time,
+        }
         return Answer(
             fit,
-            data=_record_of_dwell(fit),
+            data=record,
             pictures={"plot": lambda: draw_dwells(fit)},
             notes=refusals(found),
         )
-
-
-def _record_of_dwell(fit: Any) -> dict[str, Any]:
-    """Return the numbers of the answer."""
-    tails = {"work_of_adhesion": "_J_m2", "reference_time": "_s"}
-    return {
-        **read(fit, "times_s", "forces_N", "work_of_adhesion_J_m2", "growth_per_decade"),
-        "growth_interval": fit.interval,
-        **read(fit, "level", "scatter", "law", "words"),
-        "interface": {f"{name}{tails.get(name, '')}": x for name, x in fit.parameters.items()},
-        "reference_time_interval_s": fit.reference_time,
-    }

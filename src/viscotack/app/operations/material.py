@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from viscotack.app.operations.options import (
-    file_name,
+    input_file,
     main_file,
     named,
     number,
@@ -47,11 +47,8 @@ class FitMaterial(Dma, Shifting):
         picture(),
     )
 
-    files: tuple[Path, ...] = file_name(
-        "Files of the instrument; several files are sweeps of one material.",
-        metavar="FILE...",
-        argument=True,
-        default=...,
+    files: tuple[Path, ...] = input_file(
+        "Files of the instrument; several files are sweeps of one material.", "FILE..."
     )
     poisson_ratio: float = number(
         "0.5 for rubber, about 0.35 for a glass.", example="0.5", default=...
@@ -229,8 +226,7 @@ class ConvertMaterial(_Converted):
     takes_own: ClassVar = True
 
     source: Any = named(
-        "A material passport, or the name of a published material such as pdms-10-1. Or, with "
-        "--from, another program's input.",
+        "A passport or published material; with --from another program's input.",
         metavar="PASSPORT|FILE",
         argument=True,
         default=...,

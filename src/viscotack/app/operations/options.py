@@ -16,6 +16,8 @@ from viscotack.errors import InputError
 from viscotack.units import is_number, parse
 
 _OBJECT = {"type": "object"}
+# Words of what can be stated by flags.
+INDENTERS = ("sphere", "punch", "profile", "disc")
 
 
 @dataclass(frozen=True)
@@ -245,6 +247,16 @@ def _declares(kind: type[Option]) -> Callable[..., Any]:
 
 option, number, text = map(_declares, (Option, Number, Text))
 file_name, named, rows, contact = map(_declares, (File, Named, Rows, Contact))
+
+
+def input_file(words: str, metavar: str) -> Any:
+    """Declare a file, or several, that must be given as an argument."""
+    return file_name(words, metavar=metavar, argument=True, default=...)
+
+
+def case(words: str, **more: Any) -> Any:
+    """Declare a problem that must be given by a file."""
+    return contact(words, indenters=INDENTERS, spelling="case", default=..., **more)
 
 
 def switch(words: str, **more: Any) -> Any:

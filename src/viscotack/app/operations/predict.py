@@ -53,43 +53,36 @@ class Predict(Request):
     outputs: ClassVar = (
         csv_file("Write the predicted unloading curve as a table.", "curve"),
         picture("Draw that curve."),
-        csv_file("Write the rows of the table of cases with their predictions."),
-        binary_file("xlsx", "Write these rows to a workbook FILE.xlsx.", ".xlsx"),
+        csv_file("Write the table of cases with its predictions."),
+        binary_file("xlsx", "Write it as a workbook.", ".xlsx"),
     )
     takes_own: ClassVar = True
 
     problem: Any = contact(
-        "The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
-        "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
-        "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
-        "preload, preload_force, preload_radius; or size, thickness, cohesion, modulus_ratio, "
-        "rate and preload or preload_force.",
+        "The word sphere or punch, and flags as for simulate; or a problem in SI; or a table "
+        "with a case in each row, whose columns are flags (docs/predict.md).",
         metavar="sphere|punch|CASE.toml|CASES.csv",
         indenters=("sphere", "punch"),
         spelling="word",
         table="cases",
     )
     cases: Path | tuple[Mapping[str, Any], ...] | None = rows(
-        "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "
-        "changes it: columns are keys of the problem file, with units in the headings, "
-        '"radius [mm]", or in the cells, "5.19 mm". Alone it has a case without dimensions '
-        "in each row.",
+        "A table, CSV or .xlsx. After a problem each row changes it: columns are keys of its "
+        'file with units, "radius [mm]". Alone it has a case without dimensions in each row.',
         elsewhere=True,
     )
     confidence: float = number(
-        "Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.", default=0.9
+        "Level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.", default=0.9
     )
     budget: float | None = number(
-        "Time budget: from 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the "
-        "steady-crack contact model, from 1 s the simulation where a surrogate is not certain, "
-        "from 3 s the simulation. Default: 1 s.",
+        "From 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the steady-crack "
+        "contact model, from 1 s (default) the simulation where a surrogate is not certain, from "
+        "3 s the simulation.",
         "s",
         above=0,
         bare=True,
     )
-    exact: bool = switch(
-        "Simulate at the usual accuracy, however long it takes; `simulate` takes another."
-    )
+    exact: bool = switch("Simulate at the usual accuracy, however long it takes.")
     compare: bool = switch("Also simulate, and show the error of the prediction.")
     why: bool = switch("Also print why this method answers.")
     time_limit: HowLong = None

@@ -77,6 +77,10 @@ class Answer:
         """Return the record as plain data, as printed by ``--json`` and returned over HTTP."""
         return plain(self.data)
 
+    def write(self, output: str, target: "Target") -> None:
+        """Write the file of an output, whole or not at all."""
+        write_file(self.files[output], target)
+
     def __str__(self) -> str:
         """Return the text for the terminal."""
         from .parts.record_words import record_words
@@ -85,7 +89,7 @@ class Answer:
         return shown if isinstance(shown, str) else record_words(plain(shown), self.units)
 
 
-def write(content: Content, target: "Target") -> None:
+def write_file(content: Content, target: "Target") -> None:
     """Write the content of a file, whole or not at all."""
     from viscotack.files.text import write_table
     from viscotack.files.whole import write_whole

@@ -9,7 +9,7 @@ from viscotack.errors import InputError
 
 from .options import binary_file, csv_file, number, picture
 from .parts.rig import Rig, refusals
-from .request import Answer, Caller, write
+from .request import Answer, Caller, write_file
 
 _MOST = 1500  # points of a curve on the page
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
@@ -33,24 +33,13 @@ class ReadTests(Rig, ShiftLaw):
     outputs: ClassVar = (
         csv_file("Write a row for each cycle."),
         csv_file("Write a row for each temperature and speed.", "repeats"),
-        csv_file(
-            "Write depth and force of every retraction as two columns, coldest and slowest first; "
-            "- is standard output.",
-            "curves",
-        ),
-        binary_file(
-            "xlsx",
-            "Write a workbook FILE.xlsx of cycles, repeats by speed and rejected files, with units "
-            "in the headings.",
-            ".xlsx",
-        ),
+        csv_file("Write depth and force of every retraction as two columns.", "curves"),
+        binary_file("xlsx", "Write all tables as a workbook.", ".xlsx"),
         picture(),
     )
 
     radius: float | None = number(
-        'Sphere radius, "5.19 mm"; adds the work of adhesion of an elastic JKR sphere, '
-        "2F/(3 pi R).",
-        "m",
+        'Sphere radius, "5.19 mm"; adds the JKR work of adhesion, 2F/(3 pi R).', "m"
     )
 
     def check(self) -> None:
@@ -96,7 +85,7 @@ class ReadTests(Rig, ShiftLaw):
             files={
                 "csv": rows,
                 "repeats": repeats,
-                "curves": lambda target: write(curve_rows(found.cycles), target),
+                "curves": lambda target: write_file(curve_rows(found.cycles), target),
                 "xlsx": as_workbook(sheets),
             },
             pictures={"plot": lambda: draw_tests(found.cycles, shift=law)},

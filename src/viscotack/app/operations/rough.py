@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Literal
 
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .options import binary_file, csv_file, file_name, option, picture, switch
+from .options import binary_file, csv_file, file_name, input_file, option, picture, switch
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit
 
@@ -34,18 +34,12 @@ class OfRough(Request):
     )
     takes_own: ClassVar = True
 
-    file: Path = file_name(
-        "The tables [surface], [material], [interface] and [protocol]; perhaps [layer].",
-        metavar="ROUGH.toml",
-        argument=True,
-        default=...,
+    file: Path = input_file(
+        "[surface], [material], [interface] and [protocol]; perhaps [layer].", "ROUGH.toml"
     )
     accuracy: Accuracy = DEFAULT_ACCURACY
     moments: int | None = option(
-        "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
-        "the largest tension.",
-        ge=2,
-        le=1000,
+        "Most instants with maps; 60 for a film, else that of the largest tension.", ge=2, le=1000
     )
     anyway: bool = switch("Answer although a zone at an edge has less than one pixel.")
     device: Literal["cpu", "cuda"] = option(

@@ -10,7 +10,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
 
 from .flags import INDENTERS
-from .options import Option, binary_file, contact, csv_file, file_name, number_of, picture, switch
+from .options import Option, binary_file, contact, csv_file, input_file, number_of, picture, switch
 from .parts.record_words import units_of
 from .request import Answer, Caller, Request
 
@@ -69,7 +69,7 @@ class Simulate(Request):
     )
     takes_own: ClassVar = True
     problem: Any = contact(
-        "The indenter, sphere, punch, profile or disc, and its flags; or a problem in SI.",
+        "The indenter and its flags; or a problem in SI.",
         metavar="sphere|punch|profile|disc|CASE.toml",
         indenters=INDENTERS,
         spelling="word",
@@ -116,9 +116,7 @@ class Show(Request):
     outputs: ClassVar = _FILES
     takes_own: ClassVar = True
 
-    file: Path = file_name(
-        "A result that --save wrote.", metavar="FILE.npz", argument=True, default=...
-    )
+    file: Path = input_file("A result that --save wrote.", "FILE.npz")
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:

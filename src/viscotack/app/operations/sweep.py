@@ -9,8 +9,7 @@ from viscotack.errors import TOO_LARGE, InputError
 from viscotack.model.problem import RoughCase
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .flags import INDENTERS
-from .options import contact, csv_file, rows
+from .options import case, csv_file, rows
 from .parts.record_words import units_of
 from .request import Answer, Caller, Request
 from .simulate import Accuracy, Limit, Until
@@ -38,16 +37,10 @@ class Sweep(Request):
     outputs: ClassVar = (csv_file("Write a row for each case."),)
     takes_own: ClassVar = True
 
-    problem: Any = contact(
-        "The problem whose numbers are replaced, in SI; a case or a rough surface.",
-        indenters=INDENTERS,
-        spelling="case",
-        rough=True,
-        default=...,
-    )
+    problem: Any = case("The problem in SI, also of a rough surface.", rough=True)
     cases: Path | tuple[Mapping[str, Any], ...] = rows(
-        'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
-        "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
+        'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", and '
+        "its value. All rows have the same names.",
         metavar="CASES.csv",
         argument=True,
         default=...,

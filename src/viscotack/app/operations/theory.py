@@ -157,9 +157,7 @@ class Maugis(Request):
     work_of_adhesion: Annotated[float | None, _WORK] = None
     strength: float | None = number('Tension in the ring, "5 MPa".', "Pa", above=0)
     tabor: float | None = number(
-        "Instead of all of them, for dimensionless answers: the Tabor number of a "
-        "Lennard-Jones contact of the same work and peak tension.",
-        above=0,
+        "Instead of all: Tabor number of a Lennard-Jones contact of equal work and peak.", above=0
     )
 
     def check(self) -> None:
@@ -268,9 +266,7 @@ class OfPad(Request):
         default=...,
     )
     stress: float | None = number(
-        'In place of a thickness: wanted pull-off stress, "30 kPa": how thick must the layer be?',
-        "Pa",
-        above=0,
+        'In place of a thickness: wanted pull-off stress, "30 kPa".', "Pa", above=0
     )
     theory: Literal["greenwood", "persson-brener"] = option(
         "Theory of the moving crack.", default="greenwood"
@@ -397,14 +393,13 @@ class _OfTheory(Reduced):
     outputs: ClassVar = (picture(),)
 
     speed: tuple[float, ...] = number(
-        "Crack speed, in the theory's length over the time of the material (a second with "
-        "--modulus-table); repeat it for more. Without it a table over the range that matters.",
+        "Crack speed, in the theory's length over the time of the material (s with "
+        "--modulus-table); repeatable. Default: a table over the range that matters.",
         default=(),
     )
     modulus_table: Path | None = file_name(
-        "Instead of a material: a measured complex modulus, CSV with the header "
-        "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). "
-        "The answer is two bounds, for what the solid may do outside of the table."
+        "Instead of a material: a measured modulus, CSV with the header "
+        "'frequency_Hz,storage_MPa,loss_MPa' or other units; the answer is two bounds."
     )
     rubbery_modulus: float | None = number(
         'Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".', "Pa", above=0
@@ -517,9 +512,8 @@ class OfSteadyCrack(Reduced):
     outputs: ClassVar = (picture(),)
 
     speed: tuple[Any, ...] = text(
-        "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
-        "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
-        "it a table over the range that matters.",
+        "Crack speed in E0* h0^2/(dg tau), negative where the crack closes; with the scales of "
+        "SI also '10 um/s'. Repeatable. Default: a table over the range that matters.",
         to=_speed,
         default=(),
     )

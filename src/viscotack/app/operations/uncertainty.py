@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from viscotack.errors import InputError
 from viscotack.units import is_number, readable
 
-from .flags import INDENTERS
 from .forecast import fitted
-from .options import contact, csv_file, file_name, named, number, option, picture, text
+from .options import case, csv_file, file_name, named, number, option, picture, text
 from .parts.record_words import read
 from .parts.solid import passport_of
 from .request import Answer, Caller, Request
@@ -52,40 +51,27 @@ class OfUncertainty(Request):
     )
     takes_own: ClassVar = True
 
-    problem: Any = contact(
-        "The problem at its stated inputs.", indenters=INDENTERS, spelling="case", default=...
-    )
+    problem: Any = case("The problem at its stated inputs.")
     scatter: tuple[Any, ...] = text(
         'A number and its relative standard deviation, "protocol.speed 5 %".',
         to=_deviation,
         default=(),
     )
     passport: Any = named(
-        "A passport, or the name of a published material, in place of the material; its "
-        "sampled solids, or its intervals, are its uncertainty."
+        "A passport in place of the material; its sampled solids are its uncertainty."
     )
     temperature: float | None = number(
         'Temperature, "25 degC"; default: that of the passport.', "K"
     )
     temperature_uncertainty: float | None = number(
-        'Standard uncertainty of the temperature, "0.5 K". It changes the times of the '
-        "material by the shift of the passport.",
-        "K",
-        above=0,
+        'Its standard uncertainty, "0.5 K", which shifts the times.', "K", above=0
     )
-    study: Path | None = file_name(
-        "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
-        "place of the interface."
-    )
+    study: Path | None = file_name("Study of a rate series, in place of the interface.")
     confidence: float = number("Fraction inside the band.", above=0, most=0.999, default=0.9)
     samples: int = option("Number of predictions.", default=256, ge=6, le=10_000)
     seed: int = option("Seed of the drawn problems.", default=0, ge=0, le=2**32 - 1)
     budget: float = number(
-        "Time budget of each prediction, as for viscotack predict.",
-        "s",
-        above=0,
-        bare=True,
-        default=1.0,
+        "Of each prediction, as for viscotack predict.", "s", above=0, bare=True, default=1.0
     )
 
     def answer(self, caller: Caller) -> Answer:

@@ -29,13 +29,10 @@ class OfFiles(Request):
     time_unit: str | None = option("Unit such as s, if not in the file.", example="s")
     decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
     where: str | None = option(
-        "Rows to read, by heading and content of a column.",
-        metavar="COLUMN=VALUE",
-        example="Sample=A",
+        "Rows to read, by content of a column.", metavar="COLUMN=VALUE", example="Sample=A"
     )
     temperature_in_name: bool = switch(
-        "Read the temperature from the name of each file, as in foam_-25C.csv; default: from a "
-        "column or a line above the columns with a unit."
+        "Read the temperature from the name of each file, as in foam_-25C.csv."
     )
 
 
@@ -46,32 +43,23 @@ class Dma(OfFiles):
         "Kind of test; default: by the columns."
     )
     kind: str | None = option(
-        "Tensile or shear modulus, if the file does not state it.", metavar="E|G", example="E"
+        "Tensile or shear modulus, if not in the file.", metavar="E|G", example="E"
     )
     temperature: float | None = number(
-        "Temperature of the test, if the file does not state it.", "K", example="20 degC"
+        "Temperature of the test, if not in the file.", "K", example="20 degC"
     )
-    frequency_unit: str | None = option("Hz or rad/s, if the file does not state it.", example="Hz")
-    modulus_unit: str | None = option(
-        "Unit such as MPa, if the file does not state it.", example="MPa"
-    )
-    temperature_unit: str | None = option(
-        "degC, K or degF, if columns or header lines do not state it.", example="degC"
-    )
+    frequency_unit: str | None = option("Hz or rad/s, if not in the file.", example="Hz")
+    modulus_unit: str | None = option("Unit such as MPa, if not in the file.", example="MPa")
+    temperature_unit: str | None = option("degC, K or degF, if not in the file.", example="degC")
     step_start: float = number(
-        "Time of the step, if the file counts time from the start of the whole test.",
-        "s",
-        example="300 s",
-        default=0.0,
+        "Time of the step, in the time of the whole test.", "s", example="300 s", default=0.0
     )
     columns: str | None = option(
         "Columns by heading or number, with units that the file does not state.",
         metavar="NAMES",
         example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
     )
-    table: str | None = option(
-        "Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"
-    )
+    table: str | None = option("Number or sheet of one of several tables.", example="2")
 
     def measured(self, files: tuple[Path, ...]) -> "Measured":
         """Read the files: sweeps of one material, or tests over time."""
@@ -106,9 +94,7 @@ class ShiftLaw(Request):
     """Options for a known shift of tests at several temperatures; temperatures in K."""
 
     reference_temperature: float | None = number(
-        'Temperature of the master curve, "20 degC"; required for a shift, and for a DMA at '
-        "several temperatures.",
-        "K",
+        'Temperature of the master curve, "20 degC"; needed for any shift.', "K"
     )
     glass_transition: float | None = number(
         'Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC".', "K"
@@ -160,14 +146,12 @@ class Shifting(ShiftLaw):
     """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
 
     shift_by: Literal["both", "storage", "loss", "tan"] | None = option(
-        "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
-        "they are by default. Default without --vertical: both, or storage if it is clearly "
-        "more causal."
+        "Quantity that must superpose where shifts are fitted to the overlap. Default without "
+        "--vertical: both, or storage if it is clearly more causal."
     )
     vertical: str | float | None = text(
-        "Vertical shift with temperature: none (the default), auto (as far as the data "
-        "determine it), free, or by density and temperature with a volume expansion of "
-        '"6e-4 1/K".',
+        "Vertical shift: none (the default), auto (as far as the data determine it), free, or by "
+        'density and temperature with a volume expansion of "6e-4 1/K".',
         metavar="WORD|EXPANSION",
         to=_moving,
     )

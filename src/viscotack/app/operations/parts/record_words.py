@@ -296,6 +296,14 @@ def read(one: Any, *names: str, **paths: str) -> dict[str, Any]:
     return found
 
 
+def estimates(one: Any, *names: str) -> dict[str, Any]:
+    """Return estimates, attributes as of `read`, each with its standard uncertainty."""
+    found = {}
+    for name, each in read(one, *names).items():
+        found |= {name: each.value, f"{name}_uncertainty": each.uncertainty}
+    return found
+
+
 def rows_of(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return columns of equal length, lists or arrays, as rows."""
     lists = (x.tolist() if hasattr(x, "tolist") else list(x) for x in columns.values())

@@ -7,7 +7,7 @@ from typing import Any
 
 from viscotack.units import readable
 
-from .record_words import read, rows_of
+from .record_words import estimates, read, rows_of
 
 _MEASURED = ("pull_off_force_N", "depth_at_pull_off_m", "work_to_pull_off_J")
 _MEASURED += ("work_of_separation_J", "preload_N", "preload_depth_m", "speed_m_s", "mean_speed_m_s")
@@ -40,9 +40,7 @@ def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[
     With a radius JKR's work is among them, and with a shift law the speed a_T v.
     """
     row: dict[str, Any] = {"cycle": cycle.number}
-    for name, one in read(cycle, *_MEASURED).items():
-        row |= {name: one.value, f"{name}_uncertainty": one.uncertainty}
-    row |= read(cycle, *_PLAIN)
+    row |= estimates(cycle, *_MEASURED) | read(cycle, *_PLAIN)
     if law is not None and cycle.temperature is not None:
         factor = 10.0 ** float(law.log10_shift(cycle.temperature))
         row["shifted_speed_m_s"] = factor * cycle.speed.value

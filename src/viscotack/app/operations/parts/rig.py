@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from ..options import file_name, number, option, switch, text
+from ..options import input_file, number, option, switch, text
 from ..request import Caller
 from .dma import OfFiles
 
@@ -16,26 +16,25 @@ if TYPE_CHECKING:
 _SIGNS = {"+": 1, "-": -1, "1": 1, "-1": -1}
 
 
-def _sign(value: Any) -> int:
-    """Return the sign as a number."""
-    sign = None if isinstance(value, bool) else _SIGNS.get(str(value))
-    if sign is None:
-        raise InputError(f"must be + or -, got {value!r:.60}")
-    return sign
+def _sign(words: str) -> Any:
+    """Declare a sign, + or -."""
+
+    def number_of(value: Any) -> int:
+        if isinstance(value, bool) or str(value) not in _SIGNS:
+            raise InputError(f"must be + or -, got {value!r:.60}")
+        return _SIGNS[str(value)]
+
+    return text(words, metavar="+|-", to=number_of, default=0)
 
 
 class Rig(OfFiles):
     """A request with files of a rig, and what describes them and the rig itself."""
 
-    files: tuple[Path, ...] = file_name(
-        "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
-        "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
-        "test; a folder means all files in it.",
-        metavar="FILE...",
-        argument=True,
-        default=...,
+    files: tuple[Path, ...] = input_file(
+        "Files of the rig: text with units, a testXpert workbook, .nid, .jpk-force or .ibw; a "
+        "folder means all files in it. ..._Interval_7.csv are intervals of one test.",
+        "FILE...",
     )
-
     force_unit: str | None = option("Unit such as mN, if not in the file.")
     length_unit: str | None = option("Unit such as um, if not in the file.")
     force_column: str | None = option("Heading or number of the force column, if not detected.")
@@ -46,36 +45,20 @@ class Rig(OfFiles):
     nominal_speed: float | None = number(
         'Nominal speed, "10 um/s", if a file has no time; it is not checked.', "m/s"
     )
-    spring_constant: float | None = number(
-        "Spring constant of a cantilever, if its file does not state it (NT-MDT, MEMS).", "N/m"
-    )
+    spring_constant: float | None = number("Of a cantilever, if its file lacks it.", "N/m")
     sensitivity: float | None = number(
-        'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it (NT-MDT).',
-        "m/A",
+        'Deflection by signal of a cantilever, "50 nm/nA", if its file lacks it.', "m/A"
     )
     compliance: float | None = number(
         'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
-        "For a cantilever with a stiffness in its file the correction is automatic.",
+        "Automatic for a cantilever with a stiffness in its file.",
         "m/N",
     )
     compliance_uncertainty: float = number(
-        "Standard uncertainty of the compliance; propagated to depths and works, and by "
-        "`identify rates` to the interface, there 10 % by default.",
-        "m/N",
-        default=0.0,
+        "Its standard uncertainty; `identify rates` takes 10 % by default.", "m/N", default=0.0
     )
-    into: int = text(
-        "Whether larger positions are deeper, if heading and signal do not show it.",
-        metavar="+|-",
-        to=_sign,
-        default=0,
-    )
-    compression: int = text(
-        "Sign of compression in the files; rejected if the signal contradicts it.",
-        metavar="+|-",
-        to=_sign,
-        default=0,
-    )
+    into: int = _sign("Whether larger positions are deeper, if the file does not show it.")
+    compression: int = _sign("Sign of compression; rejected if the signal contradicts it.")
     retraction_only: bool = switch(
         "Accept curves without approach; the force zero is then taken after pull-off."
     )

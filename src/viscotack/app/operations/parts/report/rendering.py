@@ -18,7 +18,7 @@ from viscotack.model.geometry import Layer
 from viscotack.model.materials.passport_words import in_words
 from viscotack.version import __version__
 
-from ...request import Content, write
+from ...request import Content, write_file
 from ..record_words import cells_of, quantities, read
 from ..records import conditions, cycle_row, forecast_rows, rates_record, repeat_rows, series_record
 
@@ -151,7 +151,7 @@ def _tables(
 
 def _link(content: Content) -> str:
     stream = io.BytesIO()
-    write(content, stream)
+    write_file(content, stream)
     return f"data:text/csv;base64,{b64encode(stream.getvalue()).decode()}"
 
 
