@@ -97,11 +97,11 @@ def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
     # the pull-off is that of a parabola, within the noise of a point
     assert min(fastest) == pytest.approx(-10.9e-3, rel=5e-3)
     sheets = openpyxl.load_workbook(book)
-    assert sheets.sheetnames == ["cycles", "repeats", "series", "refused"]
+    assert sheets.sheetnames == ["cycles", "repeats", "refused"]
     assert sheets["cycles"].max_row == 5 and sheets["refused"].max_row == 2
     heading, *forces = (cell.value for cell in sheets["repeats"]["C"])
-    assert heading == "pull-off force mean [mN]"
-    assert forces == pytest.approx([1e3 * float(row["pull_off_force_N_mean"]) for row in rows])
+    assert heading == "pull-off force mean [N]"
+    assert forces == pytest.approx([float(row["pull_off_force_N_mean"]) for row in rows])
     assert exit_status(["test", "read", folder, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert len(answer["repeats"]) == 3 and "jkr_work_of_adhesion_J_m2" not in answer["repeats"][0]

@@ -98,10 +98,9 @@ class Predict(Request):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.files.text import write_table
+        from viscotack.plot.prediction import draw_prediction
         from viscotack.prediction.predict import predict
         from viscotack.prediction.prediction import prediction_summary
-        from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome
 
         stated = self.stated(caller)
@@ -113,10 +112,8 @@ class Predict(Request):
             found = predict(
                 stated.problem,
                 shift_deviation=stated.deviation,
-                confidence=self.confidence,
-                budget=SOON if self.budget is None else self.budget,
-                exact=self.exact,
                 passport=stated.passport,
+                **self._how,
             )
             if found.curve is None and caller.wants & {"curve", "plot"}:
                 raise InputError(
@@ -136,47 +133,40 @@ class Predict(Request):
             data=record,
             words=_shown(found, record, self.why),
             units=units_of(found.problem.groups().outputs),
-            files={"curve": lambda target: write_table(_curve(found), target)},
-            pictures={"plot": lambda: _drawn(found, result)},
+            files={"curve": {} if found.curve is None else _curve(found)},
+            pictures={"plot": lambda: draw_prediction(found, result)},
             notes=stated.improbable,
             status=int(result is not None and result.outcome is Outcome.STOPPED),
         )
 
-    def _of_table(self, caller: Caller) -> Answer:
-        """Predict all rows of a table."""
-        alone = self.problem is None
-        others = {
-            "compare": self.compare,
-            "exact": alone and self.exact,
-            "budget": alone and self.budget is not None,
-            "time_limit": alone and self.time_limit is not None,
-            "curve": "curve" in caller.wants,
-            "plot": "plot" in caller.wants,
-        }
-        if given := [name for name, is_given in others.items() if is_given]:
-            what = f"{self.cases} is a table of cases" if alone else "there is a table of cases"
-            raise InputError(f"{what}; leave out {quoted(given)}")
-        if self.problem is None:
-            from .parts.predict_table import predict_file
-
-            assert isinstance(self.cases, Path), "checked before"
-            if len(caller.wants & {"csv", "xlsx"}) != 1:
-                raise InputError(f"choose one output for the answers to {self.cases}: csv or xlsx")
-            return predict_file(caller.file(self.cases), self.confidence, caller.tell)
+    @property
+    def _how(self) -> dict[str, Any]:
+        """Options of :func:`viscotack.predict`."""
         from viscotack.prediction.tiers import SOON
 
-        from .parts.predict_table import predict_changes
+        budget = SOON if self.budget is None else self.budget
+        return self.values("confidence", "exact") | {"budget": budget}
 
-        assert self.cases is not None, "checked before"
-        return predict_changes(
-            self.stated(caller),
-            caller.rows(self.cases),
-            caller.tell,
-            time_limit=self.time_limit,
-            confidence=self.confidence,
-            budget=SOON if self.budget is None else self.budget,
-            exact=self.exact,
-        )
+    def _of_table(self, caller: Caller) -> Answer:
+        """Predict all rows of a table."""
+        from .parts.predict_table import predict_changes, predict_file
+
+        alone = self.problem is None
+        values = self.values("compare", *(("exact", "budget", "time_limit") if alone else ()))
+        given = [name for name, value in values.items() if value]
+        given += sorted(caller.wants & {"curve", "plot"})
+        if given:
+            what = f"{self.cases} is a table of cases" if alone else "there is a table of cases"
+            raise InputError(f"{what}; leave out {quoted(given)}")
+        if not alone:
+            rows, limit = caller.rows(self.cases), self.time_limit
+            return predict_changes(
+                self.stated(caller), rows, caller.tell, time_limit=limit, **self._how
+            )
+        assert isinstance(self.cases, Path), "checked before"
+        if len(caller.wants & {"csv", "xlsx"}) != 1:
+            raise InputError(f"choose one output for the answers to {self.cases}: csv or xlsx")
+        return predict_file(caller.file(self.cases), self.confidence, caller.tell)
 
 
 class Advise(Request):
@@ -227,29 +217,20 @@ def _advised(
     """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
     record: dict[str, Any] = asdict(advice)
     record |= {"sentences": sentences, "cautions": warned}
-    scales = record.pop("length_scale"), record.pop("speed_scale")
+    length, speed = record.pop("length_scale"), record.pop("speed_scale")
     if (contact := record.pop("contact")) is not None:
         del contact["receding"], contact["start_radius"], contact["edge_speed"]
-        record |= contact | _in_si(contact, scales)
+        record |= contact
+        if length is not None and (thick := contact["half_space_thickness"]) is not None:
+            record["half_space_thickness_m"] = [length * value for value in thick]
+        for name in ("saturation_", "half_space_saturation_"):
+            if speed is not None and (rate := contact[f"{name}rate"]) is not None:
+                record[f"{name}speed_m_per_s"] = rate * speed
     if (unit := advice.force_scale) is not None:
         force, interval = advice.pull_off_force, advice.interval
         record["pull_off_force_N"] = None if force is None else force * unit
         record["interval_N"] = None if interval is None else [end * unit for end in interval]
     return record
-
-
-def _in_si(contact: dict[str, Any], scales: tuple[float | None, float | None]) -> dict[str, Any]:
-    """Return thicknesses [m] and speeds [m/s] of the advice on a film."""
-    found: dict[str, Any] = {}
-    length, speed = scales
-    if length is None or speed is None:
-        return found
-    if (thick := contact["half_space_thickness"]) is not None:
-        found["half_space_thickness_m"] = [length * value for value in thick]
-    for name in ("saturation_rate", "half_space_saturation_rate"):
-        if (rate := contact[name]) is not None:
-            found[f"{name.removesuffix('rate')}speed_m_per_s"] = rate * speed
-    return found
 
 
 def _compared(kind: "Kind") -> dict[str, str]:
@@ -267,25 +248,21 @@ def _comparison(
     from viscotack.result.observables import summary
 
     simulated = summary(result)
-    answer: dict[str, Any] = {
-        "simulation": {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
-    }
-    compared = _compared(found.problem.groups().outputs)
-    difference: dict[str, float | None] = dict.fromkeys(compared)
-    held: dict[str, bool | None] = dict.fromkeys(compared)
-    for name, interval in compared.items():
-        true = simulated[name]
-        if predicted[name] is not None and true is not None:
-            difference[name] = predicted[name] / true - 1
-            if predicted[interval] is not None:
-                low, high = predicted[interval]
-                held[name] = low <= true <= high
-    return answer | {"difference": difference, "interval_held": held}
+    difference: dict[str, float | None] = {}
+    held: dict[str, bool | None] = {}
+    for name, interval in _compared(found.problem.groups().outputs).items():
+        true, value, ends = simulated[name], predicted[name], predicted[interval]
+        difference[name] = held[name] = None
+        if value is not None and true is not None:
+            difference[name] = value / true - 1
+            held[name] = None if ends is None else ends[0] <= true <= ends[1]
+    simulation = {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
+    return {"simulation": simulation, "difference": difference, "interval_held": held}
 
 
 def _curve(found: "Prediction") -> dict[str, Any]:
     """Return the columns of the curve, as `simulate --csv` names them."""
-    assert found.curve is not None, "checked before anything is written"
+    assert found.curve is not None, "asked of predictions with a curve"
     groups = found.problem.groups()
     kind = groups.outputs
     names = {kind.name_of(name): name for name in ("depth", "force", "contact_radius")}
@@ -312,9 +289,3 @@ def _shown(found: "Prediction", record: Mapping[str, Any], why: bool) -> dict[st
         shown["difference"] = {n: f"{x:+.2%}" for n, x in parts.items()}
     words = [by, found.why] if why else [by]
     return {"words": words} | shown | {"cautions": [OF_METHOD, *record["cautions"]]}
-
-
-def _drawn(found: "Prediction", result: "Result | None") -> Any:
-    from viscotack.plot.prediction import draw_prediction
-
-    return draw_prediction(found, result)

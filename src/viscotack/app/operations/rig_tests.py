@@ -53,7 +53,7 @@ class ReadTests(Rig, ShiftLaw):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
-        from viscotack.app.operations.parts.tables import as_workbook
+        from viscotack.app.operations.parts.tables import heading, write_workbook
         from viscotack.lab.tack.repeats import speed_table
         from viscotack.plot.tack import draw_tests
 
@@ -61,8 +61,6 @@ class ReadTests(Rig, ShiftLaw):
             curve_rows,
             cycle_row,
             repeat_rows,
-            series_record,
-            series_rows,
             tests_record,
         )
 
@@ -76,17 +74,22 @@ class ReadTests(Rig, ShiftLaw):
         ]
         repeats = repeat_rows(table, self.radius)
         refused = [{"file": path, "reason": why} for path, why in found.reasons]
-        series = series_rows(series_record(table))
-        sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
+        tables = {"cycles": rows, "repeats": repeats, "refused": refused}
+        sheets = {
+            title: {heading(name): [row[name] for row in of] for name in of[0]}
+            for title, of in tables.items()
+            if of
+        }
+        record = tests_record(found, table, self.radius, law)
         return Answer(
             found,
-            data=tests_record(found, table, self.radius, law),
-            words=_shown(tests_record(found, table, self.radius, law)),
+            data=record,
+            words=_shown(record),
             files={
                 "csv": rows,
                 "repeats": repeats,
                 "curves": lambda target: write_file(curve_rows(found.cycles), target),
-                "xlsx": as_workbook(sheets),
+                "xlsx": lambda target: write_workbook(sheets, target),
             },
             pictures={"plot": lambda: draw_tests(found.cycles, shift=law)},
             drawn=lambda: {

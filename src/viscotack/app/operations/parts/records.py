@@ -117,15 +117,6 @@ def series_record(table: Any) -> dict[str, Any]:
     }
 
 
-def series_rows(record: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return names and values of the record of a series as rows, exponents by temperature."""
-    rows = {name: x for name, x in record.items() if name != "exponents"}
-    for one in record["exponents"] if len(record["exponents"]) > 1 else ():
-        at = "" if one["temperature_K"] is None else f" at {one['temperature_K']:.5g} K"
-        rows |= {f"{name}{at}": x for name, x in one.items() if name != "temperature_K"}
-    return [{"quantity": name.replace("_", " "), "value": x} for name, x in rows.items()]
-
-
 def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) -> dict[str, Any]:
     """Return cycles and rejections of a survey of tack tests, and its table of repeats."""
     tests = [
