@@ -25,9 +25,9 @@ from viscotack.prediction.table import (
 )
 from viscotack.units import is_number
 
-from ..request import Answer, Content, Told
+from ..request import Answer, Content, Told, columns_of
 from ..statement import Statement
-from .record_words import units_of
+from .record_words import read, units_of
 from .tables import write_workbook
 
 Rows = Sequence[Mapping[str, Any]]
@@ -77,14 +77,9 @@ def predict_file(path: Path, confidence: float, tell: Tell) -> Answer:
     for i in np.flatnonzero((found["method"] == "") & ~empty).tolist():
         if wrong := [n for n in words if not is_number(words[n][i])]:
             found["why"][i] = f"{wrong[0]} is {words[wrong[0]][i]!r}, not a number"
-    record = _counts(found["method"].tolist(), found["inside"], found["why"]) | {
-        "confidence": confidence
-    }
-    return Answer(
-        found,
-        data=record,
-        files=_files(dict(zip(headings, given.values(), strict=True)) | found),
-    )
+    record = _counts(found["method"].tolist(), found["inside"], found["why"])
+    files = _files(dict(zip(headings, given.values(), strict=True)) | found)
+    return Answer(found, data=record | {"confidence": confidence}, files=files)
 
 
 def predict_changes(
@@ -129,25 +124,24 @@ def predict_changes(
         return {"inputs": inputs, "outputs": outputs, "why": "; ".join(whys)}
 
     found = answered_rows(changes, rows, answer, tell, "why")
-    answers: Rows = [one["outputs"] or {} for one in found]
-    table: dict[str, Any] = {heading: [row[heading] for row in rows] for heading in rows[0]}
-    for heading, (name, end) in names.items():
-        values = [one.get(name) for one in answers]
-        if end is not None:
-            values = [None if pair is None else pair[end] for pair in values]
-        table[heading] = ["" if value is None else value for value in values]
-    table |= {name: [one.get(name, "") for one in answers] for name in ("method", "band")}
-    table["inside"] = np.array([bool(one.get("inside")) for one in answers])
-    table["cautions"] = [" ".join(one.get("cautions", ())) for one in answers]
-    table["why"] = [one["why"] for one in found]
-    order = [*rows[0], *names, *_ABOUT]
+    told = [
+        {
+            **row,
+            **read(one["outputs"] or {}, **names, method="method", inside="inside", band="band"),
+            "cautions": " ".join((one["outputs"] or {}).get("cautions", ())),
+            "why": one["why"],
+        }
+        for row, one in zip(rows, found, strict=True)
+    ]
+    table: dict[str, Any] = columns_of(told)
+    table["inside"] = np.array([bool(x) for x in table["inside"]])
     record = _counts(table["method"], table["inside"], table["why"]) | {"rows": found}
     return Answer(
         found,
         data=record,
         words=record | {"rows": shown_rows(changes, found, "why", "interval")},
         units=units_of(stated.problem.groups().outputs),
-        files=_files({name: table[name] for name in order}),
+        files=_files(table),
         notes=(*stated.improbable, *changes.notes),
     )
 
@@ -188,18 +182,17 @@ def shown_rows(changes: Changes, found: Rows, why: str, *more: str) -> list[dict
     ]
 
 
-def _columns(problem: Any) -> dict[str, tuple[str, int | None]]:
-    """Return the headings of the numbers of the answers -> names in the record, ends of pairs."""
+def _columns(problem: Any) -> dict[str, str]:
+    """Return the headings of the numbers of the answers -> paths in the record."""
     outputs = problem.groups().outputs
     in_si = problem.scales() is not None
     pulled = f"pull_off_{outputs.name_of('force')}"
-    found: dict[str, tuple[str, int | None]] = {}
+    found: dict[str, str] = {}
     for name, interval in ((pulled, "interval"), (WORK[0], "work_interval")):
         unit = outputs.observables[name].unit
         tail, head = (f"_{unit.tail}", f" [{unit.si}]") if in_si else ("", "")
-        sources = (f"{name}{tail}", None), (f"{interval}{tail}", 0), (f"{interval}{tail}", 1)
-        headings = [f"{each}{head}" for each in with_interval(name)]
-        found |= dict(zip(headings, sources, strict=True))
+        paths = f"{name}{tail}", f"{interval}{tail}.0", f"{interval}{tail}.1"
+        found |= zip((f"{each}{head}" for each in with_interval(name)), paths, strict=True)
     return found
 
 

@@ -288,8 +288,8 @@ def read(one: Any, *names: str, **paths: str) -> dict[str, Any]:
     for name, path in ({name: _UNIT.sub("", name) for name in names} | paths).items():
         value = one
         for part in path.split("."):
-            if isinstance(value, Mapping | tuple):
-                value = value[int(part)] if isinstance(value, tuple) else value.get(part)
+            if isinstance(value, Mapping | list | tuple):
+                value = value.get(part) if isinstance(value, Mapping) else value[int(part)]
             elif value is not None:
                 value = getattr(value, part)
         found[name] = value
