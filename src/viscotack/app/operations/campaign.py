@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 from viscotack.errors import InputError
 
 from .options import binary_file, case, csv_file, file_name, input_file, number, option, switch
+from .parts.record_words import read
 from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress, Store
 
-_PLAN = (
-    "A plan in TOML, or a table with the columns tabor, modulus_ratio, exponent, preload and rate, "
-    "as for simulate sphere"
-)
+_PLAN = "A plan in TOML, or a table whose columns are flags of simulate sphere"
 _OF_FOLDERS = "a campaign is stored in a folder of the machine that runs it"
 _OF_PLANS = "a plan names other files, and Python files that are executed"
 # Exit status of an interrupted run, and of a complete run with failed cases.
@@ -38,14 +36,9 @@ class Inputs(Request):
         from viscotack.campaign import inputs_of
 
         found = inputs_of(self.stated(caller).problem)
-        record = {
-            entry.path: {"value": entry.value, "unit": entry.unit, "words": entry.card.words}
-            for entry in found.values()
-        }
-        rows = [
-            {"name": each.path, "value": each.value, "unit": each.unit, "meaning": each.card.words}
-            for each in found.values()
-        ]
+        paths = {"value": "value", "unit": "unit"}
+        record = {each.path: read(each, **paths, words="card.words") for each in found.values()}
+        rows = [read(x, name="path", **paths, meaning="card.words") for x in found.values()]
         return Answer(found, data=record, words={"numbers": rows})
 
 
@@ -70,18 +63,10 @@ class DescribePlan(Request):
         rows, limits = [case.inputs for case in plan.cases], plan.settings
         columns = {name: [row[name] for row in rows if name in row] for name in plan.kind.inputs}
         ranges = {name: [min(x), max(x)] for name, x in columns.items() if x}
-        record = {
-            "kind": plan.kind.name,
-            "cases": len(rows),
-            "rejected": plan.rejected,
-            "refusal": plan.refusal,
-            "repeated": plan.repeated,
-            "accuracy": limits.accuracy,
-            "until": limits.until,
-            "time_limit_s": limits.time_limit,
-            "memory_limit_bytes": limits.memory_limit,
-            "ranges": ranges,
-        }
+        record = {"kind": plan.kind.name, "cases": len(rows)}
+        record |= read(plan, "rejected", "refusal", "repeated")
+        record |= read(limits, "accuracy", "until", "time_limit_s")
+        record |= {"memory_limit_bytes": limits.memory_limit, "ranges": ranges}
         return Answer(plan, data=record, files={"csv": lambda target: export(rows, target)})
 
 
@@ -135,13 +120,13 @@ class Run(Settings):
             words += "; finishing the running cases" if now.stopped else ""
             caller.tell({"share": ended / now.cases, "words": words, "urgent": now.stopped})
 
-        options: dict[str, Any] = {"own": caller.own, "retry": self.retry, "report": report}
+        how: dict[str, Any] = {"own": caller.own, "retry": self.retry, "report": report}
         try:
             if self.scheduler is None:
-                end = run(plan, out, workers=self.workers, **options)
+                end = run(plan, out, workers=self.workers, **how)
             else:
                 with Dask(self.scheduler) as dask:
-                    end = run(plan, out, workers=dask.threads, executor=dask, **options)
+                    end = run(plan, out, workers=dask.threads, executor=dask, **how)
         except (KeyboardInterrupt, CannotRun) as error:
             why = str(error) or "interrupted"
             return Answer(
@@ -160,9 +145,9 @@ class Run(Settings):
 
         changed = self.values(*Settings.model_fields)
         if self.plan is None:
-            given = [n for n, x in {**changed, "shard": self.shard}.items() if x is not None]
-            if given:
-                raise InputError(f"`{given[0]}` needs the plan; give its file", field=given[0])
+            for name, value in (changed | {"shard": self.shard}).items():
+                if value is not None:
+                    raise InputError(f"`{name}` needs the plan; give its file", field=name)
             return None
         plan = read_plan(caller.file(self.plan), own=caller.own, **changed)
         return plan if self.shard is None else shard_of(plan, self.shard)
@@ -183,8 +168,7 @@ class Status(Request):
         """Count the stored results and failures."""
         from viscotack.campaign import Store
 
-        folder = caller.file(self.folder)
-        store = Store(folder)
+        store = Store(folder := caller.file(self.folder))
         failures = [
             {"failure": kind, "reason": reason, "cases": count}
             for (kind, reason), count in store.reasons().most_common()
@@ -240,14 +224,12 @@ class Export(Request):
 
         if not caller.wants:
             raise InputError("no output; give csv, parquet, mat or failures FILE")
-        folder = caller.file(self.folder)
-        store = Store(folder)
+        store = Store(folder := caller.file(self.folder))
         results = store.results()
         files = {
             "csv": lambda target: export(results, target, trajectories=self.trajectories),
-            "parquet": lambda target: export(results, target),
-            "mat": lambda target: export(results, target),
             "failures": lambda target: export(store.failures(), target),
+            **dict.fromkeys(("parquet", "mat"), lambda target: export(results, target)),
         }
         return replace(_standing(folder, store), files=files)
 

@@ -68,11 +68,12 @@ class FitMaterial(Dma, Shifting):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files, build the master curve and fit the model."""
-        from viscotack.model.materials.passport_file import write_passport
+        from viscotack.model.materials.passport_file import passport_text
         from viscotack.model.materials.passport_words import shift_lines
         from viscotack.plot.material import draw_fit
 
         from .parts.records import fit_record
+        from .parts.solid import material_table
 
         report, shift = self._fitted(caller)
         passport = self._passport(report, shift)
@@ -81,9 +82,12 @@ class FitMaterial(Dma, Shifting):
             (report, passport),
             data=fit_record(report, passport),
             words=words,
-            files={"output": lambda target: write_passport(passport, target)},
+            files={"output": passport_text(passport)},
             pictures={"plot": lambda: draw_fit(report, passport)},
-            drawn=lambda: _drawn(report, passport),
+            drawn=lambda: {
+                "table": material_table(report.material),
+                "passport": passport_text(passport),
+            },
             notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
         )
 
@@ -115,24 +119,12 @@ class FitMaterial(Dma, Shifting):
         from viscotack.lab import issued
         from viscotack.version import __version__
 
-        passport = issued(
-            report,
-            name=self.name or self.files[0].stem,
-            shift=shift,
-            reference=self.source,
-            made_by=f"viscotack {__version__}",
-        )
+        name, made_by = self.name or self.files[0].stem, f"viscotack {__version__}"
+        how = {"shift": shift, "reference": self.source, "made_by": made_by}
+        passport = issued(report, name=name, **how)
         # bare names: a path is valid on this machine only
         names = ", ".join(file.name for file in self.files)
         return replace(passport, origin=replace(passport.origin, file=names))
-
-
-def _drawn(report: "FitReport", passport: "Passport") -> dict[str, Any]:
-    """Return the material for the case of the page, and its passport."""
-    from viscotack.app.operations.parts.solid import material_table
-    from viscotack.model.materials.passport_file import passport_text
-
-    return {"table": material_table(report.material), "passport": passport_text(passport)}
 
 
 class ListMaterials(Request):
@@ -148,18 +140,12 @@ class ListMaterials(Request):
         from viscotack.app.operations.parts.solid import library
 
         found = library()
-        return Answer(
-            found,
-            data={"materials": found},
-            words="\n".join(_line(one) for one in found),
-        )
-
-
-def _line(one: dict[str, Any]) -> str:
-    """Return name, measured range and source of a material as lines of text."""
-    low, high = one["measured_Hz"]
-    known = readable(low, "Hz", digits=2, to=high)
-    return f"{one['name']:<18}{one['title']}\n{'':<18}{known}; {one['source']}"
+        lines = []
+        for one in found:
+            low, high = one["measured_Hz"]
+            known = readable(low, "Hz", digits=2, to=high)
+            lines += [f"{one['name']:<18}{one['title']}", f"{'':<18}{known}; {one['source']}"]
+        return Answer(found, data={"materials": found}, words="\n".join(lines))
 
 
 # Programs whose input is written, and read.
@@ -239,23 +225,21 @@ class ConvertMaterial(_Converted):
         from viscotack.model.materials.library import MATERIALS
         from viscotack.model.materials.passport import Passport
 
+        units = self.values("pressure_unit", "time_unit")
+        given = [name for name, unit in units.items() if unit is not None]
         if self.code is None:
-            names = ("pressure_unit", "time_unit")
-            given = [name for name in names if getattr(self, name) is not None]
             if given:
-                raise InputError(
-                    f"{quoted(given)} cannot be used without `code`, the other program"
-                )
+                raise InputError(f"{quoted(given)} cannot be used without `code`")
         elif isinstance(self.source, Passport) or self.source in MATERIALS:
             raise InputError("`code` takes a file of another program, not a material of ours")
-        elif (self.pressure_unit is None) != (self.time_unit is None):
+        elif len(given) == 1:
             raise InputError("give both `pressure_unit` and `time_unit`")
         if self.frequencies is not None and not self.prony:
             raise InputError("frequencies go with prony", field="frequencies")
 
     def answer(self, caller: Caller) -> Answer:
         """Read the material and convert it."""
-        from viscotack.model.materials.passport_file import write_passport
+        from viscotack.model.materials.passport_file import passport_text
 
         if self.code is None:
             passport = passport_of(self.source, caller)
@@ -265,8 +249,7 @@ class ConvertMaterial(_Converted):
             passport = passport.moved_to(self.temperature)
         if self.prony:
             passport, _ = passport.as_prony(self.frequencies, self.tolerance)
-        files = {"output": lambda target: write_passport(passport, target)}
-        return replace(_answer(passport, caller), files=files)
+        return replace(_answer(passport, caller), files={"output": passport_text(passport)})
 
     def _imported(self, caller: Caller) -> "Passport":
         from viscotack.files.text import read_text
@@ -315,6 +298,8 @@ class ExportMaterial(_Converted):
         """Make the series and write it as the program has it."""
         from viscotack.model.materials.exchange import Units, exported
 
+        from .parts.record_words import read
+
         passport = passport_of(self.passport, caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
@@ -330,19 +315,10 @@ class ExportMaterial(_Converted):
             bulk_modulus=self.bulk_modulus,
             shift=shift if passport.temperature is not None else None,
         )
-        low, high = form.frequencies
-        return Answer(
-            text,
-            data={
-                "name": passport.name,
-                "program": self.to,
-                "text": text,
-                "error": form.error,
-                "angular_frequencies_rad_s": [low, high],
-            },
-            words="" if "output" in caller.wants else text.rstrip("\n"),
-            files={"output": text},
-        )
+        record = {"name": passport.name, "program": self.to, "text": text}
+        record |= read(form, "error", angular_frequencies_rad_s="frequencies")
+        words = "" if "output" in caller.wants else text.rstrip("\n")
+        return Answer(text, data=record, words=words, files={"output": text})
 
 
 def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from viscotack.cards import card_of
-from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
 
@@ -28,18 +27,14 @@ HowLong = Annotated[float | None, number_of(card_of(TimeLimit))]
 PlotKind = Annotated[
     Literal["force", "radius", "overview", "energy", "sensitivities"],
     Option(
-        "force: against depth; radius: force against contact radius; overview: four pictures; "
-        "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed."
+        "Force against depth, or against contact radius; four pictures; the energy balance; or "
+        "elasticities by the inputs, if they were computed."
     ),
 ]
 _FILES = (
     picture(),
     csv_file("Write the curve as a table."),
-    csv_file(
-        "Write a table with a row for each cycle of the test: snap-in, peak, pull-off, work, "
-        "hysteresis, time to detachment; - is standard output.",
-        "cycles",
-    ),
+    csv_file("Write a row for each cycle: snap-in, peak, pull-off, work, hysteresis.", "cycles"),
 )
 
 
@@ -79,15 +74,12 @@ class Simulate(Request):
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: HowLong = None
     whole: bool = switch(
-        "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
-        "at a smaller depth with the same result."
+        "Begin where stated; by default a retraction from more than 1000 h0 begins at a smaller "
+        "depth with the same result."
     )
-    profiles: bool = switch(
-        "Also keep pressure and gap along the radius, at the steps of the solver."
-    )
+    profiles: bool = switch("Also keep pressure and gap along the radius.")
     sensitivities: bool = switch(
-        "Also compute the elasticities of force, work, depth and contact radius at pull-off "
-        "by every input, from simulations with each changed by 2 %."
+        "Also compute the elasticities at pull-off by every input, each changed by 2 %."
     )
     plot_kind: PlotKind = "force"
 
@@ -121,16 +113,9 @@ class Show(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Load the result."""
-        return _answer(saved(caller.file(self.file), caller), self.plot_kind, caller)
+        from viscotack.result import load
 
-
-def saved(file: Path, caller: Caller) -> "Result":
-    """Return the result in a file."""
-    if file.is_dir():
-        raise InputError(f"{file} is a folder; give the name of a file")
-    from viscotack.result import load
-
-    return load(file, also=caller.also)
+        return _answer(load(caller.file(self.file), also=caller.also), self.plot_kind, caller)
 
 
 def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
@@ -187,13 +172,11 @@ def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
             f"begun at {began['depth']:.5g} h0, where curve and time begin, and not at "
             f"{began['asked']:.4g} h0; what that changes is in the errors"
         )
-    relative = {"force": f"pull_off_{result.problem.outputs.name_of('force')}"}
-    relative["work"] = "work_to_pull_off"
+    of = {"force": f"pull_off_{result.problem.outputs.name_of('force')}_error"}
+    of["work"] = "work_to_pull_off_error"
     if (errors := shown.pop("error_estimate")) is None:
         shown["numerical_error"] = "not known: no coarser run to compare with"
-    for name, error in (errors or {}).items():
-        known = relative.get(name)
-        shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
+    shown |= {of.get(n, f"error_of_the_{n}"): error for n, error in (errors or {}).items()}
     shown["wall_time_s"] = shown.pop("wall_time_s")
     if (found := result.sensitivities) is not None:
         first = next(iter(found.elasticities.values()), {})

@@ -70,13 +70,11 @@ class Sweep(Request):
                 raise InputError(f"case {number}: {error}") from None
             warnings += [f"case {number}: {words}" for words in changes.unusual(inputs)]
         settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
-        found = answered_rows(
-            changes,
-            cases,
-            lambda row: _row(kind, changes.values(row), settings),
-            caller.tell,
-            "reason",
-        )
+
+        def answer(row: Mapping[str, Any]) -> dict[str, Any]:
+            return _row(kind, changes.values(row), settings)
+
+        found = answered_rows(changes, cases, answer, caller.tell, "reason")
         failed = sum(bool(row["reason"]) for row in found if row["inputs"] is not None)
         return Answer(
             found,
@@ -115,15 +113,11 @@ def _flat(
 ) -> list[dict[str, Any]]:
     """Return rows of the same columns, for a table: those of the cases, and the results."""
     empty = dict.fromkeys(name for row in rows for name in row["outputs"] or ())
-    return [
-        {
-            **case,
-            "run_id": row.get("run_id"),
-            **empty,
-            **(row["outputs"] or {}),
-            **case,  # of a problem without dimensions they are among the numbers too
-            "reason": row["reason"],
-            "wall_time_s": row.get("wall_time_s", 0.0),
-        }
-        for case, row in zip(cases, rows, strict=True)
-    ]
+    found = []
+    for given, row in zip(cases, rows, strict=True):
+        # of a problem without dimensions the numbers of the case are among the outputs too
+        outputs = empty | (row["outputs"] or {})
+        table = {**given, "run_id": row.get("run_id"), **outputs, **given}
+        wall_time = row.get("wall_time_s", 0.0)
+        found.append(table | {"reason": row["reason"], "wall_time_s": wall_time})
+    return found

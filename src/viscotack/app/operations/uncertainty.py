@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from viscotack.errors import InputError
-from viscotack.units import is_number, readable
+from viscotack.units import parse, readable
 
 from .forecast import fitted
 from .options import case, csv_file, file_name, named, number, option, picture, text
@@ -21,14 +21,12 @@ if TYPE_CHECKING:
 def _deviation(value: Any) -> tuple[str, float]:
     """Return the path and the relative standard deviation of a text, "sphere.radius 2 %"."""
     name, _, rest = str(value).strip().partition(" ")
-    rest = rest.strip()
-    number = rest.removesuffix("%").strip()
-    if not is_number(number):
+    try:
+        return name, parse(rest, "1")
+    except InputError:
         raise InputError(
-            f'expected a number of the problem and its deviation, "sphere.radius 2 %", got '
-            f"{value!r:.60}"
-        )
-    return name, float(number) / (100 if rest.endswith("%") else 1)
+            f'expected a number and its deviation, "sphere.radius 2 %", got {value!r:.60}'
+        ) from None
 
 
 class OfUncertainty(Request):
@@ -91,21 +89,19 @@ class OfUncertainty(Request):
             progress=caller.share,
             **self.values("confidence", "samples", "seed", "budget"),
         )
+        known = {**deviations, **times}
         rows = [
-            {
-                "input": name,
-                "deviation": {**deviations, **times}.get(name),
-                "first": x,
-                "total": found.total[name],
-            }
+            {"input": name, "deviation": known.get(name), "first": x, "total": found.total[name]}
             for name, x in found.first.items()
         ]
         kind = problem.outputs
         force = kind.observables[f"pull_off_{kind.name_of('force')}"]
         unit = force.unit.text if problem.scales() is None else force.unit.si
+        names = ("median", "interval", "confidence", "deviation", "methods")
+        about = {"pull_off": found.pull_off_force, "unit": unit, "inputs": rows}
         return Answer(
             found,
-            data=_record(found, rows, unit),
+            data=about | read(found, *names, "index_error", "interpolation_error"),
             words=_shown(found, rows, force.words, unit),
             files={"csv": rows},
             pictures={"plot": lambda: draw_uncertainty(found)},
@@ -152,14 +148,6 @@ class OfUncertainty(Request):
 
 # Number of interfaces sampled from a study.
 _INTERFACES = 64
-
-
-def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict[str, Any]:
-    """Return the numbers of the answer."""
-    names = ("median", "interval", "confidence", "deviation", "methods")
-    names += ("index_error", "interpolation_error")
-    about = {"pull_off": found.pull_off_force, "unit": unit, "inputs": rows}
-    return about | read(found, *names)
 
 
 def _shown(
