@@ -56,35 +56,24 @@ def test_from_file_to_pull_off_in_two_commands(lab, capsys):
     assert fitted["pull_off_force_N"] == pytest.approx(4.6e-3, rel=0.03)
 
 
-def trios_files(folder):
-    """Write sweeps of a standard solid, one file a temperature, as TRIOS exports them."""
+def sweeps(folder):
+    """Write sweeps of a standard solid, one file a temperature."""
     solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.3, poisson_ratio=0.5)
     random = np.random.default_rng(1)
     omega = 2 * np.pi * np.geomspace(0.05, 50, 12)
     for T in CHAMBER[:5]:
         E = solid.complex_modulus(omega * 10 ** LAW.log10_shift(T)) / 1e6
         E = E.real * np.exp(0.01 * random.normal(size=12)) + 1j * E.imag
-        # the chamber is not quite at what it was set to
-        celsius = T - 273.15 - 0.01
-        lines = [
-            "Filename\trubber.tri",
-            "Geometry name\tFilm tension",
-            "[step]",
-            f"Step name\tFrequency sweep ({celsius:.0f} °C)",
-            "Number of points\t12",
-            "Variables\tTemperature\tAngular frequency\tStorage modulus\tLoss modulus",
-            "\t°C\trad/s\tMPa\tMPa",
+        rows = [
+            f"{w:.8g},{T - 273.16:.2f},{e.real:.8g},{e.imag:.8g}"
+            for w, e in zip(omega, E, strict=True)
         ]
-        lines += [
-            f"data point {i + 1}\t{celsius:.2f}\t{w:.8g}\t{e.real:.8g}\t{e.imag:.8g}"
-            for i, (w, e) in enumerate(zip(omega, E, strict=True))
-        ]
-        name = f"rubber_{T - 273.15:.0f}.txt"
-        (folder / name).write_text("\r\n".join([*lines, ""]), encoding="utf-8")
+        text = "\n".join(["w,T,E',E''", "rad/s,C,MPa,MPa", *rows, ""])
+        (folder / f"rubber_{T - 273.15:.0f}.txt").write_text(text)
 
 
 def test_sweeps_in_several_files_give_a_force_at_another_temperature(lab, capsys):
-    trios_files(lab)
+    sweeps(lab)
     protocol = 'preload_depth = "3 um"\nspeed = "1 um/s"'
     text = case_text('passport = "rubber.toml"', radius="5 mm", protocol=protocol)
     (lab / "case.toml").write_text(text.replace("50 mJ", "150 mJ"))

@@ -272,35 +272,24 @@ def test_a_request_is_written_as_a_study_and_read_again(folder):
     assert again.model_copy(update={"files": asked.files}) == asked
 
 
-def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
-    study = folder / "asked.toml"
-    asked = 'operation = "test read"\nfiles = ["lens_1_um_s.csv"]\n[write]\n'
-    study.write_text(asked + 'csv = "rows.csv"\n')
-    assert run(["study", study])[0] == 0
-    assert (folder / "rows.csv").read_text().count("\n") == 2
-    before = (folder / "lens_1_um_s.csv").read_bytes()
-    for other in ("lens_1_um_s.csv", "asked.toml"):
-        study.write_text(asked + f'csv = "{other}"\n')
-        assert run(["study", study])[0] == 2
-    study.write_text('operation = "simulate"\nproblem = "lens.toml"\n[write]\ncsv = "lens.toml"')
-    assert run(["study", study])[0] == 2
-    assert (folder / "lens_1_um_s.csv").read_bytes() == before
-
-
-@pytest.mark.parametrize("target, refused", [("./lens_1_um_s.csv", True), ("pdms_dma.csv", False)])
-def test_force_replaces_files_but_none_that_was_read(folder, target, refused):
+@pytest.mark.parametrize(
+    ("asked", "output", "target"),
+    [
+        ('operation = "test read"\nfiles = ["lens_1_um_s.csv"]', "csv", "./lens_1_um_s.csv"),
+        ('operation = "material convert"\nsource = "rubber.toml"', "output", "rubber.toml"),
+        ('operation = "material convert"\nsource = "rubber.toml"', "output", "asked.toml"),
+    ],
+)
+def test_force_replaces_files_but_none_that_was_read(asked, output, target, folder):
+    study, written = folder / "asked.toml", folder / f"other{Path(target).suffix}"
+    written.write_text("before")
+    study.write_text(f'{asked}\n[write]\n{output} = "{written.name}"\n')
+    assert run(["study", study])[0] == 2 and written.read_text() == "before"
+    assert run(["study", study, "--force"])[0] == 0 and written.read_text() != "before"
+    study.write_text(f'{asked}\n[write]\n{output} = "{target}"\n')
     before = (folder / target).read_bytes()
-    status, _, said = run(["test", "read", "lens_1_um_s.csv", "--csv", target, "--force"])
-    assert (status == 2) == refused == ("is an input" in said)
-    assert ((folder / target).read_bytes() == before) == refused
-
-
-def test_force_replaces_no_study_by_its_own_output(folder):
-    study, asked = folder / "asked.toml", 'operation = "identify edge"\nradius = "5.19 mm"\n'
-    asked += f"contact_modulus = 2e6\nfiles = {[*LENS, 'lens_slow.csv']}\n"
-    study.write_text(asked + '[write]\noutput = "asked.toml"\n')
     status, _, said = run(["study", study, "--force"])
-    assert status == 2 and "is an input" in said and study.read_text().startswith(asked)
+    assert status == 2 and "is an input" in said and (folder / target).read_bytes() == before
 
 
 GARBAGE = [{}, {"a": 1}, True, "x", -1, 1e308, float("nan"), "1e400", b"x", object(), [None], "\0"]
