@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from rate_tests import LENS, holds, measured, of_other, of_single_cracks
-from viscotack.app.operations.parts.report.rendering import page
+from viscotack.app.operations.parts.report import page
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
 from viscotack.identify.computed import Computed

@@ -71,8 +71,8 @@ SECTIONS: Mapping[str, Mapping[str, tuple[str, str]]] = {
     },
     "Serve other programs": {
         "app": ("", "Open the web page and the HTTP API."),
-        "export contact": ("export_contact", "Write a contact for other simulators, in C."),
-        "schema": ("schema", "Print the JSON schema of a problem."),
+        "export contact": ("control", "Write a contact for other simulators, in C."),
+        "schema": ("control", "Print the JSON schema of a problem."),
     },
 }
 COMMANDS = {name: each for commands in SECTIONS.values() for name, each in commands.items()}

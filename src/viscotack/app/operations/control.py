@@ -1,6 +1,7 @@
-"""The operation ``control``: the force table of a contact for controllers, and a release."""
+"""The operations ``control``, ``export contact`` and ``schema``, for other programs."""
 
-from math import inf
+import json
+from math import inf, isinf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -8,13 +9,23 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .options import Output, binary_file, case, csv_file, number, option, picture
+from .options import (
+    Output,
+    binary_file,
+    case,
+    csv_file,
+    main_file,
+    number,
+    option,
+    picture,
+    switch,
+)
 from .parts.record_words import read, rows_of
 from .request import Answer, Caller, Content, Request, write_file
 from .simulate import Accuracy, Limit
 
 if TYPE_CHECKING:
-    from viscotack.design.control import ForceTable, Released
+    from viscotack.design.control import ForceTable
 
 # Part of the progress that the table takes, where a release follows.
 _TABLE = 0.7
@@ -85,19 +96,21 @@ class Control(Request):
             limits = self.stiffness or inf, self.period
             release = Release(table, self.wanted, *limits)
             released = let_go(problem, release, **self.values("accuracy", "time_limit"))
-        speed = None if release is None else release.speed
+        rows, end = _rows(table), None
         files: dict[str, Content] = {
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
             "fmu": lambda to: write_whole(to, fmu(table, self.name)),
-            "csv": _rows(table),
+            "csv": rows,
             "forces": lambda to: write_file(_forces(table), to),
         }
-        if released is not None:
+        if release is not None and released is not None:
             names = ("time_s", "drive_m", "depth_m", "force_N", "drive_speed_m_per_s")
             files["ticks"] = read(released, *names)
+            end = read(released, "wanted_N") | {"contact_speed_m_per_s": release.speed}
+            end |= read(released, "pull_off_force_N", "miss") | {"time_s": released.time[-1]}
         return Answer(
             table if released is None else (table, released),
-            data=_record(table, released, speed),
+            data={**read(table, "start_depth_m", "error"), "speeds": rows, "release": end},
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
             notes=stated.notes,
@@ -123,21 +136,69 @@ def _forces(table: "ForceTable") -> list[dict[str, float]]:
     ]
 
 
-def _record(
-    table: "ForceTable", released: "Released | None", speed: float | None
-) -> dict[str, Any]:
-    """Return the numbers of the answer."""
-    found: dict[str, Any] = {
-        "start_depth_m": table.start_depth,
-        "error": table.error,
-        "speeds": _rows(table),
-        "release": None,
-    }
-    if released is not None:
-        found["release"] = {
-            **read(released, "wanted_N"),
-            "contact_speed_m_per_s": speed,
-            **read(released, "pull_off_force_N", "miss"),
-            "time_s": released.time[-1],
+class ExportContact(Request):
+    """Write the contact of a sphere for other simulators: force by the history of its depth.
+
+    A header of C99 with the contact radius and the memory of the bulk as its state. Every step is
+    passive. Without -o it goes to standard output.
+
+    Example: viscotack export contact glass_lens.toml -o lens.h
+    """
+
+    word: ClassVar = "export contact"
+    outputs: ClassVar = (
+        main_file("Write the header to this file; - is standard output.", ".h", usual="-"),
+    )
+    takes_own: ClassVar = True
+
+    problem: Any = case("A sphere on a half-space in SI; its protocol does not matter.")
+    name: str = option("Type of the contact, and prefix of the functions.", default="contact")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Reduce the contact and write it."""
+        from viscotack.design.control import reduced_contact, reduced_header
+
+        stated = self.stated(caller)
+        problem: Any = stated.problem
+        found = reduced_contact(problem)
+        text = reduced_header(found, self.name)
+        record = {
+            "contact": found.of,
+            **read(found, "range", "force_band", "work_band"),
+            "fastest_edge_m_s": None if isinf(found.fastest) else found.fastest,
+            "cells": found.node.size - 1,
+            "modes": found.modulus.size,
         }
-    return found
+        shown = record | {"largest_stiffness_at_1_mm_N_per_m": found.stiffness(1e-3)}
+        return Answer(
+            found,
+            data=record | {"text": text},
+            words=shown if "output" in caller.wants else text.rstrip("\n"),
+            files={"output": text},
+            notes=stated.notes,
+        )
+
+
+class Schema(Request):
+    """Print the JSON schema of a problem: every number with its unit, symbol and range.
+
+    It describes the object `problem` of --json, which results and campaigns keep as well.
+
+    Example: viscotack schema > problem.schema.json
+    """
+
+    word: ClassVar = "schema"
+    takes_own: ClassVar = True
+
+    words: bool = switch("Tables in Markdown for people, in place of the schema.")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the cards of all nouns."""
+        from viscotack.model.problem.record import schema, words
+
+        found = schema(caller.also)
+        return Answer(
+            found,
+            data=found,
+            words=words(caller.also) if self.words else json.dumps(found, indent=2),
+        )
