@@ -17,7 +17,8 @@ from viscotack.errors import InputError
 from .options import INDENTERS, quoted
 
 ROUND = ("sphere", "profile", "disc")
-_BY_RADIUS = ("sphere", "disc")
+_PUNCH = ("punch",)
+BONDED = "Poisson ratio, 0 to 0.5, of a layer bonded to its base; it slides when left out."
 
 
 @dataclass(frozen=True)
@@ -47,33 +48,33 @@ class Flag:
     metavar: str = ""
 
 
+def _both(words: str, key: str, **more: Any) -> Flag:
+    """Return a flag that states the same key without dimensions and in SI."""
+    return Flag(words, key, key, **more)
+
+
 _MATERIAL = (
-    "power-law (also when left out, for a punch sls): modified power law by its retardation "
-    "spectrum; sls: standard linear solid; fractional-zener:ORDER: standard solid with a springpot "
-    "of this order; elastic: no memory; prony:FILE: CSV file with the header "
-    "'modulus_ratio,relaxation_time_s' and a branch a row, whose unit of time is then that of "
-    "--rate; a passport FILE.toml, as `viscotack material fit` writes it, or the name of a "
-    "published material (`viscotack material list`), as pdms-10-1; NAME:NUMBERS for one of --with."
+    "power-law (default; of a punch sls), sls, fractional-zener:ORDER, elastic; prony:FILE, a CSV "
+    "file 'modulus_ratio,relaxation_time_s' with a branch a row, whose unit of time is then that "
+    "of --rate; a passport FILE.toml, or a published material (`viscotack material list`); "
+    "NAME:NUMBERS for one of --with."
 )
 _MOVE = (
-    "What the machine does before the retraction; give it once for each move. 'approach SPEED to "
-    "WHERE', 'retract SPEED to WHERE' (WHERE: depth, force or radius and a number), 'move to DEPTH "
-    "in TIME', 'load to FORCE in TIME', 'dwell TIME', 'hold drive|depth|force TIME'; with units in "
-    "SI."
+    "A move before the retraction, repeatable: 'approach SPEED to WHERE', 'retract SPEED to WHERE' "
+    "(depth, force or radius and a number), 'move to DEPTH in TIME', 'load to FORCE in TIME', "
+    "'dwell TIME', 'hold drive|depth|force TIME'; with units in SI."
 )
 LAW = (
-    "Forces across the gap: lennard-jones (also when left out), dugdale, exponential:DECAY (decay "
-    "length over h0), or table:FILE, a CSV file with the header 'gap_nm,traction_kPa' or other "
-    "units; NAME:NUMBERS for one of --with. Strength that grows with the opening speed: "
-    "gent-schultz:SPEED,EXPONENT or eyring:SPEED,SENSITIVITY (reference speed in h0 over the unit "
-    "of time); with the time in contact: logarithmic-ageing:TIME,SENSITIVITY or "
-    "saturating-ageing:TIME,GROWTH; with :LAW behind it for another law at rest than lennard-jones."
+    "lennard-jones (default), dugdale, exponential:DECAY (over h0), table:FILE, a CSV file "
+    "'gap_nm,traction_kPa'; NAME:NUMBERS for one of --with. Strength that grows with the opening "
+    "speed: gent-schultz:SPEED,EXPONENT or eyring:SPEED,SENSITIVITY; with the time in contact: "
+    "logarithmic-ageing:TIME,SENSITIVITY or saturating-ageing:TIME,GROWTH; with :LAW behind it for "
+    "another law at rest."
 )
 # Of a problem that a file states.
 OF_FILE = {
     "temperature": Flag(
-        'Temperature of a passport material, "0 degC", within its measured range; shifts its '
-        "times. In SI only.",
+        'In SI: temperature of a passport, "0 degC", which shifts its times.',
         si="material.temperature",
     ),
     "set": Flag(
@@ -85,33 +86,22 @@ OF_FILE = {
 }
 FLAGS: Mapping[str, Flag] = {
     "tabor": Flag(
-        "Tabor number mu = (R dg0^2/(E0*^2 h0^3))^(1/3), E0* the rubbery contact modulus.",
-        "groups.tabor",
-        indenters=ROUND,
+        "Tabor number mu = (R dg0^2/(E0*^2 h0^3))^(1/3).", "groups.tabor", indenters=ROUND
     ),
-    "size": Flag("Half width of the punch over a0.", "punch.half_width", indenters=("punch",)),
-    "cohesion": Flag("Strength over E0*.", "groups.cohesion", indenters=("punch",)),
+    "size": Flag("Half width of the punch over a0.", "punch.half_width", indenters=_PUNCH),
+    "cohesion": Flag("Strength over E0*.", "groups.cohesion", indenters=_PUNCH),
     "profile_exponent": Flag(
-        "Exponent q of the profile z = A r^q, from 1 (cone).",
-        "shape.exponent",
-        indenters=("profile",),
+        "Exponent q of z = A r^q, from 1 (cone).", "shape.exponent", indenters=("profile",)
     ),
     "points": Flag(
-        "In place of --profile-exponent: CSV file of a measured profile with the columns radius_1 "
-        "(in beta) and height_1 (heights in any unit; they are scaled so that the sphere closest "
-        "to the profile has the radius R).",
+        "In place of --profile-exponent: CSV file of a profile, radius_1 (in beta) and height_1 "
+        "(scaled so that the closest sphere has the radius R).",
         "shape.file",
         indenters=("profile",),
         metavar="FILE.csv",
     ),
-    "modulus_ratio": Flag(
-        "Rubbery over glassy modulus k, up to 1.",
-        "material.modulus_ratio",
-        "material.modulus_ratio",
-    ),
-    "exponent": Flag(
-        "Exponent n of the modified power law.", "material.exponent", "material.exponent"
-    ),
+    "modulus_ratio": _both("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio"),
+    "exponent": _both("Exponent n of the modified power law.", "material.exponent"),
     "preload": Flag(
         "Depth of the relaxed start, positive into the solid, in h0.",
         "groups.preload",
@@ -135,49 +125,39 @@ FLAGS: Mapping[str, Flag] = {
         "protocol.start",
     ),
     "rate": Flag(
-        "Retraction speed, in h0/tau0 (prony: h0 per unit of time); with --move it may be left "
-        "out, and the test ends with the last move.",
+        "Retraction speed, in h0/tau0 (prony: h0 per unit of time); without it a test of --move "
+        "ends with the last move.",
         "groups.rate",
     ),
-    "material": Flag(_MATERIAL, "material.model", "material.model", metavar="MATERIAL"),
-    "law": Flag(LAW, "interface.law", "interface.law", metavar="LAW"),
-    "thickness": Flag(
-        "Thickness of the layer over beta = (R^2 dg0/E0*)^(1/3), a half-space when left out; of "
-        "the layer under a punch over a0.",
-        "layer.thickness",
+    "material": _both(_MATERIAL, "material.model", metavar="MATERIAL"),
+    "law": _both(LAW, "interface.law", metavar="LAW"),
+    "thickness": _both(
+        "Thickness of the layer over beta = (R^2 dg0/E0*)^(1/3), of that under a punch over a0; a "
+        "half-space when left out.",
         "layer.thickness",
     ),
-    "bonded": Flag(
-        "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer "
-        "slides on its base.",
-        "layer.poisson_ratio",
-        "layer.poisson_ratio",
-    ),
+    "bonded": _both(BONDED, "layer.poisson_ratio"),
     "move": Flag(_MOVE, "groups.moves", "protocol.moves", many=True, metavar="WORDS"),
     "stiffness": Flag(
-        "Stiffness of the machine, in 1.5 pi R dg0/h0; of that of a punch, in the strength over "
-        "h0.",
+        "Stiffness of the machine, in 1.5 pi R dg0/h0; of a punch in the strength over h0.",
         "groups.stiffness",
         "protocol.stiffness",
     ),
     "radius": Flag(
         'In SI, with units on all numbers: radius of the sphere or disc, "5 mm".',
         si="shape.radius",
-        indenters=_BY_RADIUS,
+        indenters=("sphere", "disc"),
     ),
     "half_width": Flag(
-        'In SI: half width of the punch, "1 mm".', si="punch.half_width", indenters=("punch",)
+        'In SI: half width of the punch, "1 mm".', si="punch.half_width", indenters=_PUNCH
     ),
     "speed": Flag('In SI: retraction speed, "10 um/s".', si="protocol.speed"),
-    "work_of_adhesion": Flag(
-        'In SI: work of adhesion dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"
-    ),
+    "work_of_adhesion": Flag('In SI: dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"),
     "equilibrium_gap": Flag(
         'In SI: range of the attraction h0, "100 nm".', si="interface.equilibrium_gap"
     ),
     "strength": Flag(
-        'In SI, in place of --equilibrium-gap: largest tension of the law, "100 kPa".',
-        si="interface.strength",
+        'In SI, in place of --equilibrium-gap: largest tension, "100 kPa".', si="interface.strength"
     ),
     "rubbery_modulus": Flag(
         'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; a passport is scaled to it.',
@@ -187,9 +167,7 @@ FLAGS: Mapping[str, Flag] = {
         'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".',
         si="material.contact_modulus",
     ),
-    "poisson_ratio": Flag(
-        "In SI: Poisson ratio of the solid, 0.5 when left out.", si="material.poisson_ratio"
-    ),
+    "poisson_ratio": Flag("In SI: Poisson ratio, 0.5 when left out.", si="material.poisson_ratio"),
     "tau0": Flag('In SI: time of the solid, "100 ms"; not with a passport.', si="material.tau0"),
     **OF_FILE,
 }

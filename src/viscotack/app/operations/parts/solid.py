@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from viscotack.app.operations.flags import FLAGS, named_as_flags, table_of_solid
+from viscotack.app.operations.flags import BONDED, FLAGS, named_as_flags, table_of_solid
 from viscotack.app.operations.options import Named, named, number, quoted
 from viscotack.app.operations.request import Caller, Request
 from viscotack.cards import with_units
@@ -95,12 +95,7 @@ class OnLayer(Request):
     thickness: float | None = number(
         'Thickness of a layer on a rigid base, "60 um"; a half-space when left out.', "m", above=0
     )
-    bonded: float | None = number(
-        "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer "
-        "slides on its base.",
-        least=0,
-        most=0.5,
-    )
+    bonded: float | None = number(BONDED, least=0, most=0.5)
 
     def check(self) -> None:
         """Refuse a base without a layer."""
