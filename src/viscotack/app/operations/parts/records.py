@@ -5,6 +5,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
+from viscotack.model.materials.words import word_of
 from viscotack.units import readable
 
 from .record_words import estimates, read, rows_of
@@ -16,22 +17,15 @@ _PLAIN = ("pull_off_raw_N", "dwell_time_s", "approach_speed_m_s", "noise_N", "te
 
 def passport_record(passport: Any) -> dict[str, Any]:
     """Return a material passport; unbounded and unknown values are None."""
-    return asdict(passport) | {
-        "material": _material_record(passport.material),
-        "modulus_ratio": passport.material.modulus_ratio,
-    }
+    material = {"model": word_of(passport.material)} | asdict(passport.material)
+    ratio = passport.material.modulus_ratio
+    return asdict(passport) | {"material": material, "modulus_ratio": ratio}
 
 
 def fit_record(report: Any, passport: Any) -> dict[str, Any]:
     """Return a fitted material: its passport, and how well it fits."""
     more = {"criterion": dict(report.compared), "median_error": report.median_error}
     return passport_record(passport) | more
-
-
-def _material_record(material: Any) -> dict[str, Any]:
-    from viscotack.model.materials.words import word_of
-
-    return {"model": word_of(material)} | asdict(material)
 
 
 def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[str, Any]:
@@ -101,19 +95,11 @@ def series_record(table: Any) -> dict[str, Any]:
     "exponent" is that of a series at one temperature, or of the master curve.
     """
     exponent = table.exponent if table.master is None else table.master
+    paths = {"exponent": "value", "exponent_standard_error": "uncertainty"}
     return {
-        "scatter": table.scatter,
-        "scatter_degrees_of_freedom": table.freedom,
-        "exponent": None if exponent is None else exponent.value,
-        "exponent_standard_error": None if exponent is None else exponent.uncertainty,
-        "exponents": [
-            {
-                "temperature_K": temperature,
-                "exponent": one.value,
-                "exponent_standard_error": one.uncertainty,
-            }
-            for temperature, one in table.exponents
-        ],
+        **read(table, "scatter", scatter_degrees_of_freedom="freedom"),
+        **read(exponent, **paths),
+        "exponents": [{"temperature_K": T} | read(one, **paths) for T, one in table.exponents],
     }
 
 
@@ -166,13 +152,21 @@ def slow_record(fit: Any) -> dict[str, Any]:
 
 def rates_record(fit: Any) -> dict[str, Any]:
     """Return the interface parameters identified from a rate series."""
+    body, layer, growth = fit.forward.body, None, None
+    if body.word == "layer":
+        layer = read(body, "thickness_m", "poisson_ratio") | {"base": body.base.word}
+    if fit.growth is not None:
+        names = ("strengthening", "opening_speed_m_s", "exponent", "reference_speed_m_s")
+        shares = ("speed_m_s", "edge_speed_m_s", "energy", "bulk", "interface")
+        growth = read(fit.growth, *names, "better_by", "chance")
+        growth["shares"] = [read(one, *shares) for one in fit.growth.shares]
     return {
         **interface_record(fit),
         "range_bound_m": fit.given.range_bound,
         **_series_record(fit),
         "criterion_of_edge_law": None if fit.edge is None else fit.edge.criterion,
-        "layer": _layer_record(fit.forward.body),
-        "growth": None if fit.growth is None else _growth_record(fit.growth),
+        "layer": layer,
+        "growth": growth,
         **read(fit, "tabor", "words"),
     }
 
@@ -192,22 +186,24 @@ def interface_record(fit: Any) -> dict[str, float]:
 
 
 def _series_record(fit: Any) -> dict[str, Any]:
-    """Return intervals, scatter and forces of any fit of a rate series."""
+    """Return intervals, scatter, forces and growth with the contact time of any rate series."""
+    ageing: dict[str, Any] | None = {"separate": False} if fit.given.confounded else None
+    if (found := fit.ageing) is not None:
+        ageing = {"growth_per_decade": fit.best.values["growth_per_decade"]}
+        ageing |= read(fit.given, "middle_time_s")
+        ageing |= read(found, "better_by", "chance", "correlation")
+        ageing |= {"separate": not found.together, "unexplained": fit.unexplained}
+    paths = {"temperature_K": "temperature", "speed_m_s": "true_speed"}
+    paths |= {"shifted_speed_m_s": "speed", "pull_off_force_N": "force.value"}
+    paths |= {"pull_off_force_N_uncertainty": "force.uncertainty"}
+    timed = () if found is None else ("contact_time_s",)
     return {
         **read(fit, "intervals", "scatter", "trend", "criterion", "describes_tests"),
         "scatter_between_speeds": fit.between_speeds,
-        "ageing": _ageing_record(fit),
+        "ageing": ageing,
         "solutions": [one.values for one in fit.solutions],
         "series": [
-            {
-                "temperature_K": one.temperature,
-                "speed_m_s": one.true_speed,
-                "shifted_speed_m_s": one.speed,
-                "pull_off_force_N": one.force.value,
-                "pull_off_force_N_uncertainty": one.force.uncertainty,
-                "fitted_N": force,
-                **({} if fit.ageing is None else read(one, "contact_time_s")),
-            }
+            read(one, **paths) | {"fitted_N": force} | read(one, *timed)
             for one, force in zip(fit.series, fit.forces, strict=True)
         ],
     }
@@ -215,42 +211,9 @@ def _series_record(fit: Any) -> dict[str, Any]:
 
 def forecast_rows(forecast: Any) -> list[dict[str, float]]:
     """Return a row for each speed of a forecast."""
-    columns = {
-        "speed_m_s": forecast.speed,
-        "pull_off_force_N": forecast.force,
-        "low_N": forecast.low,
-        "high_N": forecast.high,
-        "low_of_one_test_N": forecast.low_of_one,
-        "high_of_one_test_N": forecast.high_of_one,
-        "contact_time_s": forecast.contact_time,
-    }
+    columns = read(
+        forecast, speed_m_s="speed", pull_off_force_N="force", low_N="low", high_N="high"
+    )
+    columns |= read(forecast, low_of_one_test_N="low_of_one", high_of_one_test_N="high_of_one")
+    columns |= read(forecast, "contact_time_s")
     return rows_of({name: x for name, x in columns.items() if x is not None})
-
-
-def _layer_record(body: Any) -> dict[str, Any] | None:
-    """Return thickness and base of a layer, None for a half-space."""
-    if body.word != "layer":
-        return None
-    return read(body, "thickness_m", "poisson_ratio") | {"base": body.base.word}
-
-
-def _ageing_record(fit: Any) -> dict[str, Any] | None:
-    """Return the growth with the time in contact; None where all times are equal."""
-    found = fit.ageing
-    if found is None:
-        return {"separate": False} if fit.given.confounded else None
-    return {
-        "growth_per_decade": fit.best.values["growth_per_decade"],
-        **read(fit.given, "middle_time_s"),
-        **read(found, "better_by", "chance", "correlation"),
-        "separate": not found.together,
-        "unexplained": fit.unexplained,
-    }
-
-
-def _growth_record(found: Any) -> dict[str, Any]:
-    """Return the growth of the interface with speed."""
-    names = ("strengthening", "opening_speed_m_s", "exponent", "reference_speed_m_s")
-    shares = ("speed_m_s", "edge_speed_m_s", "energy", "bulk", "interface")
-    record = read(found, *names, "better_by", "chance")
-    return record | {"shares": [read(one, *shares) for one in found.shares]}
