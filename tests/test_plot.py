@@ -2,6 +2,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from picture_units import in_si
+from solids import standard_solid
 from synthetic import SI, jkr_result
 from viscotack.plot.simulation import draw_force
 from viscotack.plot.style import label_in_si, save_figure
