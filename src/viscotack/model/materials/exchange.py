@@ -18,7 +18,7 @@ that does not relax.
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from scipy.constants import gas_constant
@@ -28,9 +28,28 @@ from viscotack.model.materials.branched_solids import Prony
 from viscotack.model.materials.shift import WLF, Arrhenius, Shift
 from viscotack.units import parse, positive
 
-CODES = ("abaqus", "ansys", "comsol")
-# How each program marks a comment.
+# Program -> how it marks a comment.
 _MARKS = {"abaqus": "**", "ansys": "!", "comsol": "%"}
+# Program and law -> how it states log10 A = -c1 (T - T0)/(c2 + T - T0), in Ansys minus it, or
+# ln A = H/R (1/T0 - 1/T).
+_SHIFTS = {
+    ("abaqus", WLF): """** temperatures in kelvin
+*TRS, DEFINITION=WLF
+{reference_temperature!r}, {c1!r}, {c2!r}""",
+    ("ansys", WLF): """! temperatures in kelvin: TOFFST,0
+TB,SHIFT,1,1,3,WLF
+TBDATA,1,{reference_temperature!r},{c1!r},{c2!r}""",
+    (
+        "abaqus",
+        Arrhenius,
+    ): """** temperatures in kelvin, energy in J/mol; the model needs *PHYSICAL CONSTANTS,
+** ABSOLUTE ZERO=0., UNIVERSAL GAS CONSTANT=8.31446
+*TRS, DEFINITION=ARRHENIUS
+{reference_temperature!r}, {activation_energy!r}""",
+    ("ansys", Arrhenius): """! temperatures in kelvin: TOFFST,0; ln A = H/R (1/T0 - 1/T)
+TB,SHIFT,1,1,2,TN
+TBDATA,1,{reference_temperature!r},{over_R!r}""",
+}
 _COMMENT = re.compile(r"units:\s*pressure\s+(\S+?),\s*time\s+(\S+)")
 
 
@@ -67,10 +86,6 @@ class Units:
     def second(self) -> float:
         """The unit of time in s."""
         return parse(f"1 {self.time}", "s")
-
-    def words(self) -> str:
-        """Return the comment that states the units."""
-        return f"units: pressure {self.pressure}, time {self.time}"
 
 
 SI = Units("Pa", "s")
@@ -130,8 +145,8 @@ def exported(
     0.9, 0.9, 0.1
     <BLANKLINE>
     """
-    if code not in CODES:
-        raise InputError(f"the program must be one of {', '.join(CODES)}, got {code!r}")
+    if code not in _MARKS:
+        raise InputError(f"the program must be one of {', '.join(_MARKS)}, got {code!r}")
     glassy = material.glassy_modulus
     # an incompressible solid has another Young's modulus and Poisson ratio in the program
     tensile = glassy if code == "ansys" else material.rubbery_modulus
@@ -145,10 +160,8 @@ def exported(
                 f"bulk_modulus = {K:g} Pa must exceed the glassy shear modulus, {glassy / 3:g} Pa, "
                 "for a nearly incompressible solid"
             )
-        modulus, nu = (
-            9 * K * tensile / (9 * K + tensile),
-            (9 * K - 2 * tensile) / (9 * K + tensile) / 2,
-        )
+        modulus = 9 * K * tensile / (9 * K + tensile)
+        nu = (9 * K - 2 * tensile) / (9 * K + tensile) / 2
         less = 100 * glassy / (9 * K + glassy)
         notes = (
             *notes,
@@ -161,8 +174,6 @@ def exported(
             'the command line --bulk-modulus "2 GPa", about that of rubber), or use a material '
             "with a ratio below 0.5"
         )
-    if shift is not None and code == "comsol":
-        notes = (*notes, "this format has no temperature shift: export at each temperature")
     mark, scaled = _MARKS[code], modulus / units.pascal
     ratios = [(E / glassy, time / units.second) for E, time in material.branches]
     bulk = bulk_modulus is None
@@ -183,56 +194,26 @@ def exported(
                 rows.append(f"TBDATA,{2 * first + 1},{values}")
     else:
         factor = _shear_factor(material.poisson_ratio) / units.pascal
+        branches = enumerate(material.branches, 1)
         rows = [
             f"% linear elastic material: long-term Young's modulus {scaled!r}",
             f"% linear elastic material: Poisson ratio {nu!r}",
             "% by default only the deviatoric part relaxes: make the volumetric part relax with "
             "the same ratios, unless the solid is nearly incompressible",
             "% branch, shear modulus, relaxation time",
-            *(
-                f"{i} {E * factor!r} {time / units.second!r}"
-                for i, (E, time) in enumerate(material.branches, 1)
-            ),
+            *(f"{i} {E * factor!r} {time / units.second!r}" for i, (E, time) in branches),
         ]
+    if isinstance(shift, WLF | Arrhenius) and (code, type(shift)) in _SHIFTS:
+        over_R = getattr(shift, "activation_energy", 0.0) / gas_constant
+        rows.append(_SHIFTS[code, type(shift)].format(**vars(shift), over_R=over_R))
+    elif shift is not None:
+        what = "no temperature shift: export at each temperature"
+        if code != "comsol":
+            what = "no shift table: fit a WLF or Arrhenius law"
+        rows.append(f"{mark} this format has {what}")
     comments = [line for note in notes for line in note.splitlines()]
-    lines = [f"{mark} {line}" for line in (*comments, units.words())]
-    return "\n".join([*lines, *rows, *_shifted(code, shift)]) + "\n"
-
-
-def _shifted(code: str, shift: Shift | None) -> list[str]:
-    """Format the shift law: log10 A = -c1 (T - T0)/(c2 + T - T0) in Abaqus, minus it in Ansys."""
-    if shift is None or code == "comsol":
-        return []
-    T, abaqus = shift.reference_temperature, code == "abaqus"
-    match shift:
-        case WLF(c1=c1, c2=c2):
-            if abaqus:
-                return [
-                    "** temperatures in kelvin",
-                    "*TRS, DEFINITION=WLF",
-                    f"{T!r}, {c1!r}, {c2!r}",
-                ]
-            return [
-                "! temperatures in kelvin: TOFFST,0",
-                "TB,SHIFT,1,1,3,WLF",
-                f"TBDATA,1,{T!r},{c1!r},{c2!r}",
-            ]
-        case Arrhenius(activation_energy=energy):
-            if abaqus:
-                return [
-                    "** temperatures in kelvin, energy in J/mol; the model needs *PHYSICAL "
-                    "CONSTANTS,",
-                    "** ABSOLUTE ZERO=0., UNIVERSAL GAS CONSTANT=8.31446",
-                    "*TRS, DEFINITION=ARRHENIUS",
-                    f"{T!r}, {energy!r}",
-                ]
-            return [
-                "! temperatures in kelvin: TOFFST,0; ln A = H/R (1/T0 - 1/T)",
-                "TB,SHIFT,1,1,2,TN",
-                f"TBDATA,1,{T!r},{energy / gas_constant!r}",
-            ]
-    name = "*TRS" if abaqus else "TB,SHIFT"
-    return [f"{_MARKS[code]} {name} does not support a shift table: fit a WLF or Arrhenius law"]
+    stated = f"units: pressure {units.pressure}, time {units.time}"
+    return "\n".join([*(f"{mark} {line}" for line in (*comments, stated)), *rows]) + "\n"
 
 
 @dataclass(frozen=True)
@@ -340,9 +321,8 @@ def _of_abaqus(text: str) -> _Deck:
 def _of_ansys(text: str) -> _Deck:
     """Read the series of ``TB,PRONY`` with ``MP,EX`` and ``MP,NUXY`` (or PRXY)."""
     constants: dict[str, float] = {}
-    tables: dict[str, dict[int, float]] = {}
-    lines: dict[str, int] = {}
-    counts: dict[str, int] = {}
+    # part -> line of its TB, stated number of pairs, and numbers by their places
+    tables: dict[str, tuple[int, float, dict[int, float]]] = {}
     part = ""
     for line, raw in _lines(text, "!"):
         words = [*(w.strip() for w in raw.split(",")), *[""] * 5]
@@ -350,48 +330,45 @@ def _of_ansys(text: str) -> _Deck:
         if command == "MP" and words[3]:
             constants[words[1].upper()] = _number(words[3], line, words[1])
         elif command == "TB":
-            part = ""
-            if words[1].upper() == "PRONY":
-                part = words[5].upper() or "SHEAR"
-                tables[part], lines[part] = {}, line
-                if words[4]:
-                    counts[part] = int(_number(words[4], line, "the number of pairs"))
+            part = (words[5].upper() or "SHEAR") if words[1].upper() == "PRONY" else ""
+            if part:
+                pairs = _number(words[4] or "0", line, "the number of pairs")
+                tables[part] = line, pairs, {}
         elif command == "TBDATA" and part:
-            if not words[1] and tables[part]:
+            table = tables[part][2]
+            if not words[1] and table:
                 raise InputError(
                     f"line {line}: TBDATA must begin with the position of its first number"
                 )
-            first = int(_number(words[1], line, "the place of TBDATA")) if words[1] else 1
-            for place, word in enumerate(words[2:], first):
-                if word:
-                    tables[part][place] = _number(word, line, "a value")
+            first = int(_number(words[1] or "1", line, "the place of TBDATA"))
+            table |= {
+                place: _number(word, line, "a value")
+                for place, word in enumerate(words[2:], first)
+                if word
+            }
     if "SHEAR" not in tables:
         raise InputError("there is no TB,PRONY with SHEAR in the text")
-    for part, table in tables.items():
-        if part in counts and len(table) != 2 * counts[part]:
+    for line, pairs, table in tables.values():
+        if pairs and len(table) != 2 * pairs:
             raise InputError(
-                f"line {lines[part]}: TB states {counts[part]} pairs, but {len(table)} numbers "
-                "follow"
+                f"line {line}: TB states {pairs:g} pairs, but {len(table)} numbers follow"
             )
         if sorted(table) != list(range(1, len(table) + 1)) or len(table) % 2:
             raise InputError(
-                f"line {lines[part]}: the numbers of TBDATA must be complete pairs from position 1"
+                f"line {line}: the numbers of TBDATA must be complete pairs from position 1"
             )
-    shear, bulk = tables["SHEAR"], tables.get("BULK", {})
+    line, _, shear = tables["SHEAR"]
+    bulk = tables["BULK"][2] if "BULK" in tables else {}
     rows = []
     for place in range(1, max(len(shear), len(bulk)), 2):
-        time, other = shear.get(place + 1, 0.0), bulk.get(place + 1, 0.0)
-        same = abs(time - other) <= _SAME * time
-        k = bulk.get(place, 0.0) if same else 0.0
-        rows.append((lines["SHEAR"], shear.get(place, 0.0), k, time))
+        time = shear.get(place + 1, 0.0)
+        same = abs(time - bulk.get(place + 1, 0.0)) <= _SAME * time
+        rows.append((line, shear.get(place, 0.0), bulk.get(place, 0.0) if same else 0.0, time))
     nu = constants.get("NUXY", constants.get("PRXY"))
     return _Deck(constants.get("EX"), nu, rows, is_instantaneous=True)
 
 
-_READERS: dict[str, Callable[[str], _Deck]] = {
-    "abaqus": _of_abaqus,
-    "ansys": _of_ansys,
-}
+_READERS = {"abaqus": _of_abaqus, "ansys": _of_ansys}
 
 
 def _lines(text: str, comment: str) -> Iterator[tuple[int, str]]:
