@@ -6,8 +6,9 @@ import pytest
 
 import viscotack as vt
 from stated import LENS, case_text, lens
-from viscotack.model.problem.case_file import case_of_tables, read_prony
-from viscotack.model.problem.record import schema
+from viscotack.files.quantities import read_quantities
+from viscotack.model.problem.case_file import case_of_tables
+from viscotack.model.problem.schema import schema
 
 
 def written(folder, text):
@@ -98,34 +99,20 @@ def test_a_file_that_is_no_toml_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "branches", "unit"),
-    [
-        ("modulus_ratio,relaxation_time_s\n5,0.001\n4, 1\n", ((5, 1e-3), (4, 1)), "s"),
-        ("# soft\n\nmodulus_ratio, relaxation_time_h\n5,2\n", ((5, 2),), "h"),
-        ("\ufeffmodulus_ratio,relaxation_time\n5,2\n", ((5, 2),), "1"),
-    ],
-)
-def test_a_prony_series_is_read_in_its_own_unit_of_time(text, branches, unit, tmp_path):
-    path = tmp_path / "series.csv"
-    path.write_text(text, encoding="utf-8")
-    assert read_prony(path) == (branches, unit)
-
-
-@pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("E,tau\n5,2\n", "first row"),
+        ("E,tau\n5,2\n", "no column modulus_ratio .* first row is 'E,tau'"),
+        ("modulus_ratio,relaxation_time\n5,2\n", "no column relaxation_time with its unit"),
         ("modulus_ratio,relaxation_time_kg\n5,2\n", "expected a quantity in s"),
-        ("# x\nmodulus_ratio,relaxation_time_s\n5,2\n5,-2\n", "line 4: time"),
+        ("# x\nmodulus_ratio,relaxation_time_s\n5,2\n5,-2\n", "time of branches must be positive"),
         ("modulus_ratio,relaxation_time_s\n5,2,3\n", "line 2"),
     ],
 )
-def test_a_wrong_prony_series_is_refused_with_its_line(text, words, tmp_path):
-    path = tmp_path / "series.csv"
-    path.write_text(text)
-    with pytest.raises(ValueError, match=words) as caught:
-        read_prony(path)
-    assert "series.csv" in str(caught.value)
+def test_a_wrong_prony_series_is_refused_with_its_file(text, words, tmp_path):
+    (tmp_path / "series.csv").write_text(text)
+    case = written(tmp_path, with_material(f'model = "prony"\n{BASE}file = "series.csv"'))
+    with pytest.raises(ValueError, match=f"series.csv.*{words}"):
+        vt.read_case(case)
 
 
 def test_the_documented_case_is_the_lens(tmp_path):
@@ -136,7 +123,10 @@ def test_the_documented_case_is_the_lens(tmp_path):
     series = re.search(r"```text\n(.*?)```", text, flags=re.S)
     assert series
     (tmp_path / "series.csv").write_text(series[1])
-    assert read_prony(tmp_path / "series.csv") == (((5.0, 1e-3), (4.0, 1.0)), "s")
+    columns = read_quantities(
+        tmp_path / "series.csv", {"modulus_ratio": "1", "relaxation_time": "s"}
+    )
+    assert tuple(columns.values()) == ((5.0, 4.0), (1e-3, 1.0))
 
 
 @pytest.mark.parametrize(

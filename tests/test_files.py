@@ -15,7 +15,6 @@ from viscotack.files.whole import (
     NotWritten,
     write_whole,
 )
-from viscotack.model.problem.case_file import read_prony
 from viscotack.result import load, save
 
 ELASTIC = "simulate sphere --material elastic --tabor 3.24 --preload 20".split()
@@ -145,7 +144,12 @@ def test_an_error_in_toml_names_what_is_wrong_with_its_line(text, words, tmp_pat
 
 
 def test_tables_of_spreadsheets_are_read_in_their_encodings(tmp_path):
-    (tmp_path / "prony.csv").write_text("modulus_ratio,relaxation_time_s\n9,0.1\n", "utf-16")
-    assert read_prony(tmp_path / "prony.csv") == (((9.0, 0.1),), "s")
-    (tmp_path / "gap.csv").write_text("gap_nm\n5\n", encoding="utf-16")
-    assert read_quantities(tmp_path / "gap.csv", {"gap": "m"}) == {"gap": (5e-9,)}
+    file, units = tmp_path / "prony.csv", {"modulus_ratio": "1", "relaxation_time": ""}
+    for text, encoding in (
+        ("modulus_ratio,relaxation_time_h\n9,0.1\n", "utf-16"),
+        ("\ufeff# soft\n\nmodulus_ratio, relaxation_time\n9, 0.1\n", "utf-8"),
+    ):
+        file.write_text(text, encoding)
+        assert tuple(read_quantities(file, units).values()) == ((9.0,), (0.1,))
+    file.write_text("gap_nm\n5\n")
+    assert read_quantities(file, {"gap": "m"}) == {"gap": (5e-9,)}

@@ -5,7 +5,7 @@ import pytest
 import viscotack as vt
 from command_line import answered
 from stated import LAW, case_text
-from viscotack.model.problem.law_table import law_from_words
+from viscotack.model.problem.case_file import law_from_words
 from viscotack.model.protocol.words import (
     PUNCH_UNITS,
     PURE_NUMBERS,

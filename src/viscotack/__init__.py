@@ -55,10 +55,10 @@ if TYPE_CHECKING:
     from viscotack.model.problem import Problem as Problem
     from viscotack.model.problem import PunchScales as PunchScales
     from viscotack.model.problem import Scales as Scales
+    from viscotack.model.problem.case_file import from_dict as from_dict
     from viscotack.model.problem.case_file import read_case as read_case
-    from viscotack.model.problem.record import from_dict as from_dict
-    from viscotack.model.problem.record import run_id as run_id
-    from viscotack.model.problem.record import to_dict as to_dict
+    from viscotack.model.problem.case_file import run_id as run_id
+    from viscotack.model.problem.case_file import to_dict as to_dict
     from viscotack.model.protocol import Apart as Apart
     from viscotack.model.protocol import Approach as Approach
     from viscotack.model.protocol import AtDepth as AtDepth
@@ -160,8 +160,7 @@ _NAMES = {
         "Elastic StandardSolid FractionalZener Prony RetardationPowerLaw RelaxationPowerLaw"
     ),
     "model.problem": "Problem Groups Scales PunchScales",
-    "model.problem.record": "to_dict from_dict run_id",
-    "model.problem.case_file": "read_case",
+    "model.problem.case_file": "read_case to_dict from_dict run_id",
     "simulate": "SimulationError",
     "simulate.solver": "solve",
     "simulate.crack_contact": "crack_contact CrackContact",

@@ -1,6 +1,7 @@
 """Exceptions for invalid input, as opposed to defects of the package."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,34 @@ class NotInstalled(InputError, ModuleNotFoundError):
 
 class OutOfRange(InputError):
     """A problem outside the range of a theory or surrogate; the message names the quantity."""
+
+
+@contextmanager
+def placed(where: str, field: str = "") -> Iterator[None]:
+    """Put a place before the message of invalid input in the block, unless it names the file.
+
+    Parameters
+    ----------
+    where : str
+        Such as "lens.toml:" or "lens.toml, [protocol]".
+    field : str
+        Field of the error, if it names none itself.
+
+    Examples
+    --------
+    >>> with placed("lens.toml:"):
+    ...     raise InputError("radius must be positive")
+    Traceback (most recent call last):
+    viscotack.errors.InputError: lens.toml: radius must be positive
+    """
+    try:
+        yield
+    except ValueError as error:
+        file = where.partition(",")[0].removesuffix(":")
+        if isinstance(error, InputError) and str(error).startswith(file):
+            raise
+        own = getattr(error, "field", "")
+        raise InputError(f"{where} {error}", field=own or field) from None
 
 
 # What pydantic's types of errors say.

@@ -27,8 +27,8 @@ from viscotack.model.materials.modes import FINEST, reciprocal, voigt
 from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport, write_passport
 from viscotack.model.problem import Groups, Problem
+from viscotack.model.problem.case_file import from_dict, to_dict
 from viscotack.model.problem.nouns import known, room_of
-from viscotack.model.problem.record import from_dict, to_dict
 from viscotack.model.protocol import AtDepth, AtForce, Retraction
 from viscotack.model.traction import LennardJones, at_rest, effective_range, softening
 from viscotack.result import Result, load, save

@@ -10,11 +10,10 @@ from typing import Any
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.model.problem import RoughCase
-from viscotack.model.problem.case_file import read_case
+from viscotack.model.problem.case_file import from_dict, read_case, run_id, to_dict
 from viscotack.model.problem.changes import Column, columns_of
 from viscotack.model.problem.kinds import KINDS, Kind, kind_of_columns, kind_of_problem
 from viscotack.model.problem.nouns import own_nouns
-from viscotack.model.problem.record import from_dict, run_id, to_dict
 from viscotack.model.tables import Reading, read_as
 from viscotack.simulate import has_start
 from viscotack.simulate.rough import read_rough_case

@@ -4,7 +4,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, placed
 from viscotack.units import finite, parse
 
 from .text import read_rows
@@ -25,7 +25,8 @@ def read_quantities(
         ``gap_nm,traction_kPa``; each further row has the numbers of one point. Lines that begin
         with ``#`` are skipped.
     units : mapping
-        Name of each wanted column, without its unit -> SI unit of the result.
+        Name of each wanted column, without its unit -> SI unit of the result; "1" for a column of
+        pure numbers, whose name may have no unit, and "" for numbers in the unit of the file.
     most : int
         Largest number of rows of numbers.
 
@@ -53,14 +54,12 @@ def read_quantities(
         )
     columns: dict[str, list[float]] = {name: [] for name in units}
     for line, row in rows:
-        try:
+        with placed(f"{path}, line {line}:"):
             if len(row) != len(header):
                 raise InputError(f"{len(row)} entries, but the header has {len(header)}")
             for name, (at, given) in places.items():
-                value = finite(name, row[at], given)
-                columns[name].append(parse(f"{value!r} {given}", units[name]))
-        except ValueError as error:
-            raise InputError(f"{path}, line {line}: {error}") from None
+                value, unit = finite(name, row[at], given), units[name]
+                columns[name].append(parse(f"{value!r} {given}", unit) if unit else value)
     if not rows:
         raise InputError(f"{path}: no rows below the header")
     return {name: tuple(values) for name, values in columns.items()}
@@ -68,15 +67,16 @@ def read_quantities(
 
 def _place(path: Path, header: list[str], name: str, unit: str) -> tuple[int, str]:
     """Return the index of a column and its unit as written in the file."""
-    found = [i for i, text in enumerate(header) if text.startswith(f"{name}_")]
+    plain = unit in ("1", "")
+    found = [
+        i for i, text in enumerate(header) if text.startswith(f"{name}_") or plain and text == name
+    ]
     if len(found) != 1:
         raise InputError(
             f"{path}: no column {name} with its unit, such as {name}_{unit}; the first row is "
             f"{','.join(header)!r}"
         )
-    given = header[found[0]].removeprefix(f"{name}_")
-    try:
-        parse(f"1 {given}", unit)
-    except ValueError as error:
-        raise InputError(f"{path}, unit of column {name}: {error}") from None
+    given = header[found[0]].removeprefix(name).removeprefix("_") or "1"
+    with placed(f"{path}, unit of column {name}:"):
+        parse(f"1 {given}", unit or given)
     return found[0], given

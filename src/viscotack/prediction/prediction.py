@@ -15,7 +15,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.model.problem import Case
-from viscotack.model.problem.record import run_id, to_dict
+from viscotack.model.problem.case_file import run_id, to_dict
 from viscotack.result.curve import PRESSED
 from viscotack.units import readable, readable_interval
 from viscotack.version import __version__

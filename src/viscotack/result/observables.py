@@ -8,8 +8,8 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Layer
+from viscotack.model.problem.case_file import run_id, to_dict
 from viscotack.model.problem.outputs import Unit
-from viscotack.model.problem.record import run_id, to_dict
 from viscotack.threads import caught_warnings
 
 from . import Outcome, Result

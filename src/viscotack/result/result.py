@@ -33,7 +33,7 @@ from viscotack.files.frame import frame
 from viscotack.files.text import write_table
 from viscotack.files.whole import Target, write_whole
 from viscotack.model.problem import Case, Groups, Problem, PunchScales, Scales
-from viscotack.model.problem.record import from_dict, to_dict
+from viscotack.model.problem.case_file import from_dict, to_dict
 from viscotack.model.tables import UnknownNoun
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1

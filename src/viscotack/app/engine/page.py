@@ -34,11 +34,9 @@ from viscotack.model.geometry import (
     PowerLawProfile,
 )
 from viscotack.model.problem import Problem, plane, revolution
-from viscotack.model.problem.case_file import ProfilePoint
-from viscotack.model.problem.law_table import STRENGTH
+from viscotack.model.problem.case_file import STARTS, STRENGTH, ProfilePoint
 from viscotack.model.problem.nouns import known
 from viscotack.model.problem.outputs import PLANE, REVOLUTION
-from viscotack.model.problem.protocol_table import STARTS
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction, states
 from viscotack.model.traction import Tabulated
 from viscotack.prediction.advice import advice_on, estimate_by, estimates_without_advice

@@ -194,7 +194,7 @@ class Schema(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the cards of all nouns."""
-        from viscotack.model.problem.record import schema, words
+        from viscotack.model.problem.schema import schema, words
 
         found = schema(caller.also)
         return Answer(

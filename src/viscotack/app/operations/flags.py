@@ -190,7 +190,7 @@ def tables_of(word: str, said: Mapping[str, Any], nouns: Any) -> dict[str, dict[
     nouns : Nouns
         Known laws and materials.
     """
-    from viscotack.model.problem.law_table import table_of_words
+    from viscotack.model.problem.case_file import table_of_words
 
     known, of_si = flags_of((word,)), of_si_alone(said)
     in_si = bool(of_si)

@@ -92,7 +92,7 @@ def _row(kind: "Kind", inputs: dict[str, float], settings: "CaseSettings") -> di
     from viscotack.app.operations.request import plain
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
-    from viscotack.model.problem.record import run_id
+    from viscotack.model.problem.case_file import run_id
 
     began = perf_counter()
     row: dict[str, Any] = {"inputs": inputs, "outputs": None, "reason": ""}

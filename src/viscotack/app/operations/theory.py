@@ -525,7 +525,7 @@ class OfSteadyCrack(Reduced):
 
     def answer(self, caller: Caller) -> Answer:
         """Solve the crack at the speeds, or over the range that matters."""
-        from viscotack.model.problem.law_table import law_from_words
+        from viscotack.model.problem.case_file import law_from_words
         from viscotack.model.traction import LennardJones
         from viscotack.theory import SteadyCrack
 

@@ -6,16 +6,17 @@ dimensionless problem has [groups] in place of [protocol], and numbers without u
 surface has [surface] in place of the shape.
 """
 
+import hashlib
+import json
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from viscotack.cards import Quantity, card_of, cards
-from viscotack.errors import InputError
+from viscotack.cards import Exact, Field, Quantity, card_of, cards, with_units
+from viscotack.errors import InputError, placed
 from viscotack.files.quantities import read_quantities
-from viscotack.files.text import read_rows
 from viscotack.files.toml import read_toml
 from viscotack.model.geometry import (
     Bonded,
@@ -36,86 +37,36 @@ from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport
 from viscotack.model.materials.words import word_of
 from viscotack.model.problem import plane, revolution
-from viscotack.model.problem.law_table import law_from_table, table_of_law
 from viscotack.model.problem.nouns import known
-from viscotack.model.problem.problem import Case, Groups, Problem
-from viscotack.model.problem.protocol_table import (
-    protocol_from_table,
-    table_of_groups,
-    table_of_protocol,
-    test_of_groups,
+from viscotack.model.problem.problem import (
+    Case,
+    Cohesion,
+    Groups,
+    Problem,
+    Rate,
+    Spring,
+    Tabor,
 )
 from viscotack.model.problem.rough_case import RoughCase, StatedSurface, hash_of
-from viscotack.model.tables import OWN, Reading, read_as, refuse_unknown, stated
-from viscotack.units import parse, positive, readable
-
-
-def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float], ...], str]:
-    """Read the branches of a Prony series from a CSV file, and the unit of their times.
-
-    Parameters
-    ----------
-    path : path
-        First row ``modulus_ratio,relaxation_time_s``, then one row per branch: its modulus over the
-        rubbery modulus, and its relaxation time. The unit ``s`` may be any unit of time (``ms``,
-        ``h``); ``relaxation_time`` without a unit means dimensionless times. Lines that begin with
-        ``#`` are ignored.
-
-    Returns
-    -------
-    tuple of (float, float), str
-        Branches as (modulus ratio, relaxation time in the file's unit), and that unit ("1" for
-        pure numbers).
-
-    Raises
-    ------
-    FileNotFoundError
-        If the file does not exist.
-    ValueError
-        If the header or a row is not as described; the message names the line.
-    """
-    path = Path(path)
-    header, rows = read_rows(path)
-    if (
-        len(header) != 2
-        or header[0] != "modulus_ratio"
-        or not header[1].startswith("relaxation_time")
-    ):
-        raise InputError(
-            f"{path}: the first row must be 'modulus_ratio,relaxation_time_s' (or another unit of "
-            f"time), got {','.join(header)!r}"
-        )
-    unit = header[1].removeprefix("relaxation_time").removeprefix("_") or "1"
-    if unit != "1":
-        try:
-            parse(f"1 {unit}", "s")
-        except ValueError as error:
-            raise InputError(f"{path}, the name of the second column: {error}") from None
-    branches = []
-    for line, row in rows:
-        try:
-            if len(row) != 2:
-                raise InputError(f"a row must be a modulus ratio and a time, got {','.join(row)!r}")
-            ratio, time = row
-            branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
-        except ValueError as error:
-            raise InputError(f"{path}, line {line}: {error}") from None
-    if not branches:
-        raise InputError(f"{path}: the file has no branch below the header")
-    return tuple(branches), unit
-
+from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Move, Retraction, Start
+from viscotack.model.protocol.moves import Speed, Stiffness, check_number_of_moves
+from viscotack.model.protocol.words import (
+    PURE_NUMBERS,
+    history_from_file,
+    move_from_words,
+    start_from_words,
+    words_of_move,
+)
+from viscotack.model.tables import OWN, Reading, UnknownNoun, read_as, refuse_unknown, stated
+from viscotack.model.traction import LAWS, LennardJones, Tabulated, Traction, has_rest
+from viscotack.units import readable
 
 Tables = Mapping[str, Any]
 # Largest thickness of a layer over the contact's length.
 _THICKEST = 1e9
 
 
-def read_case(
-    path: str | os.PathLike[str],
-    *,
-    also: Iterable[Any] = (),
-    temperature: float | None = None,
-) -> Case:
+def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Case:
     """Read a problem from a TOML file, in SI or with the table [groups] dimensionless.
 
     Parameters
@@ -126,9 +77,6 @@ def read_case(
         such as ``radius = "5.19 mm"``; files named in it are relative to its folder.
     also : iterable of classes
         User-defined laws, materials, shapes and bodies that the file may name by their words.
-    temperature : float, optional
-        Temperature of the material [K], overriding that in the file; only for a passport, within
-        its measured range.
 
     Returns
     -------
@@ -171,7 +119,7 @@ def read_case(
     """
     path = Path(path)
     reading = Reading(str(path), known(also), path.parent.joinpath)
-    problem = problem_of(read_toml(path), reading, temperature)
+    problem = problem_of(read_toml(path), reading)
     if isinstance(problem, RoughCase):
         raise InputError(
             f"{path} states a map of heights; read it with viscotack.simulate.rough.read_rough"
@@ -185,7 +133,6 @@ def case_of_tables(
     where: str = "the case",
     also: Iterable[Any] = (),
     beside: Callable[[str], Path] | None = None,
-    temperature: float | None = None,
 ) -> Problem:
     """Return the problem stated by the tables of a case file, without a file.
 
@@ -199,8 +146,6 @@ def case_of_tables(
         User-defined laws, materials, shapes and bodies that it may name by their words.
     beside : callable, optional
         Returns the path of a file named in a table; without it tables may not name files.
-    temperature : float, optional
-        As for :func:`read_case`.
 
     Raises
     ------
@@ -226,15 +171,52 @@ def case_of_tables(
     >>> problem.geometry
     Sphere(radius=0.001)
     """
-    problem = problem_of(tables, Reading(where, known(also), beside), temperature)
+    problem = problem_of(tables, Reading(where, known(also), beside))
     if not isinstance(problem, Problem):
         raise InputError(f"{where} must state a shape and a test in SI, [protocol]")
     return problem
 
 
-def problem_of(
-    tables: Tables, reading: Reading, temperature: float | None = None
-) -> Problem | Groups | RoughCase:
+def from_dict(
+    record: Mapping[str, Any],
+    also: Iterable[Any] = (),
+    *,
+    beside: Callable[[str], Path] | None = None,
+) -> Any:
+    """Restore a problem from a dictionary of :func:`to_dict`, or from the tables of a file.
+
+    Parameters
+    ----------
+    record : dict
+        Tables of a problem. Numbers without a unit are in SI.
+    also : iterable of classes
+        User-defined laws, materials, shapes and bodies that it may name.
+    beside : callable, optional
+        Returns the path of a file named in a table; without it tables may not name files.
+
+    Returns
+    -------
+    Problem, Groups or RoughCase
+        Equal to the original object.
+
+    Raises
+    ------
+    InputError
+        If a table or key is missing or unknown, or a value is invalid.
+
+    Examples
+    --------
+    >>> tables = {
+    ...     "groups": {"tabor": 3.24, "preload": 73, "rate": 316.23},
+    ...     "material": {"model": "power-law", "modulus_ratio": 0.1, "exponent": 0.8},
+    ... }
+    >>> from_dict(tables).start
+    AtDepth(depth=73.0)
+    """
+    return problem_of(record, Reading("the problem", known(also), beside, bare=True))
+
+
+def problem_of(tables: Tables, reading: Reading) -> Problem | Groups | RoughCase:
     """Return the problem of tables: in SI, dimensionless with [groups], rough with [surface].
 
     Parameters
@@ -243,17 +225,25 @@ def problem_of(
         Tables as in :func:`read_case`.
     reading : Reading
         How their values are read.
-    temperature : float, optional
-        As for :func:`read_case`.
     """
     where, nouns = reading.where, reading.nouns
     if not isinstance(tables, Mapping):
         raise InputError(f"{where} must be tables with keys, got {tables!r:.60}")
     test = "groups" if "groups" in tables else "protocol"
     reading = replace(reading, pure=test == "groups")
-    if reading.pure and "surface" in tables:
-        raise InputError(f"{where}: a map of heights, [surface], is stated in SI with a [protocol]")
-    shape = "surface" if "surface" in tables else _indenter(tables, nouns.shapes, where)
+    shapes = [name for name in tables if name in nouns.shapes]
+    if len(shapes) > 1:
+        raise InputError(
+            f"{where}: only one indenter is allowed, got [{'] and ['.join(shapes)}]",
+            field=shapes[1],
+        )
+    shape = shapes[0] if shapes else FlatPunch.word if Layer.word in tables else Sphere.word
+    if "surface" in tables:
+        if reading.pure:
+            raise InputError(
+                f"{where}: a map of heights, [surface], is stated in SI with a [protocol]"
+            )
+        shape = "surface"
     plain = shape != "surface" and nouns.shapes[shape].symmetry == "plane"
     bodies = [name for name in tables if name in nouns.bodies] or ([Layer.word] if plain else [])
     if len(bodies) > 1:
@@ -270,34 +260,56 @@ def problem_of(
             f"{where}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
             "docs/input.md"
         )
-    reading = replace(reading, units=(plane if plain else revolution).SI)
-    material = material_of(tables.get("material"), reading, temperature)
+    units = PURE_NUMBERS if reading.pure else (plane if plain else revolution).SI
+    reading = replace(reading, units=units)
+    material = material_of(tables.get("material"), reading)
     law = law_from_table(tables.get("interface"), reading)
     body = _body(tables.get(bodies[0]), bodies[0], reading, material) if bodies else HalfSpace()
     parts: dict[str, Any] = {"material": material, "traction": law, "body": body}
-    try:
+    with placed(f"{where}:"):
         if reading.pure:
             geometry = _shape(tables[shape], shape, reading)
-            return Groups(geometry=geometry, **parts, **test_of_groups(tables["groups"], reading))
-        parts["protocol"] = protocol_from_table(
-            tables.get("protocol"), reading, law.equilibrium_gap
-        )
+            return Groups(geometry=geometry, **parts, **_test_of_groups(tables["groups"], reading))
+        parts["protocol"] = _protocol(tables.get("protocol"), reading, law.equilibrium_gap)
         if shape == "surface":
             return RoughCase(surface=_surface(tables["surface"], reading), **parts)
         return Problem(geometry=_shape(tables.get(shape), shape, reading), **parts)
-    except ValueError as error:
-        if isinstance(error, InputError) and str(error).startswith(where):
-            raise
-        raise InputError(f"{where}: {error}", field=getattr(error, "field", "")) from None
 
 
-def tables_of(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
-    """Return the tables that state a problem, with numbers in SI; :func:`problem_of` reads them."""
-    pure = isinstance(problem, Groups)
-    material = stated(problem.material)
+def to_dict(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
+    """Convert a problem to the tables of its file, with numbers in SI.
+
+    Values equal to the default are omitted, so that new options do not change the ids of old
+    problems. The dictionary contains only dictionaries, lists, texts and numbers: ``json.dumps``
+    writes it, and :func:`from_dict` restores an equal object.
+
+    Parameters
+    ----------
+    problem : Problem, Groups or RoughCase
+        Object to convert.
+
+    Returns
+    -------
+    dict
+        Ready for JSON.
+
+    Raises
+    ------
+    InputError
+        If the object is not a problem.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> to_dict(Groups(tabor=2, material=solid, start=AtDepth(20), rate=1))["groups"]
+    {'tabor': 2.0, 'preload': 20.0, 'rate': 1.0}
+    """
+    if not isinstance(problem, Problem | Groups | RoughCase):
+        raise InputError(f"expected a Problem or Groups, got {type(problem).__name__}")
     found: dict[str, Any] = {
-        "material": {"model": word_of(problem.material), **material},
-        "interface": table_of_law(problem.traction, pure=pure),
+        "material": {"model": word_of(problem.material), **stated(problem.material)},
+        "interface": _table_of_law(problem.traction, pure=isinstance(problem, Groups)),
     }
     if isinstance(problem, RoughCase):
         found["surface"] = stated(problem.surface)
@@ -309,18 +321,257 @@ def tables_of(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
     elif problem.body != HalfSpace():
         found[problem.body.word] = stated(problem.body)
     if isinstance(problem, Groups):
-        return found | {"groups": table_of_groups(problem)}
-    return found | {"protocol": table_of_protocol(problem.protocol, problem.units)}
+        name = "tabor" if problem.cohesion is None else "cohesion"
+        test = _table_of_test(problem, PURE_NUMBERS, rate=problem.rate)
+        return found | {"groups": {name: getattr(problem, name), **test}}
+    speed = problem.protocol.speed
+    return found | {"protocol": _table_of_test(problem.protocol, problem.units, speed=speed)}
 
 
-def _indenter(tables: Tables, known: Mapping[str, Any], where: str) -> str:
-    """Return the name of the table that states the indenter."""
-    given = [name for name in tables if name in known]
-    if len(given) > 1:
-        raise InputError(
-            f"{where}: only one indenter is allowed, got [{'] and ['.join(given)}]", field=given[1]
+def run_id(case: Any) -> str:
+    """Return a short id that depends only on the content of a problem.
+
+    Equal problems have equal ids, on all machines.
+
+    Parameters
+    ----------
+    case : Problem or Groups
+        The problem.
+
+    Returns
+    -------
+    str
+        Hexadecimal digits.
+
+    Raises
+    ------
+    InputError
+        If the object is not a problem.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> one, same = (Groups(tabor=2, material=solid, start=AtDepth(d), rate=1) for d in (20, 20.0))
+    >>> run_id(one) == run_id(same)
+    True
+    """
+    text = json.dumps(to_dict(case), sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+@dataclass(frozen=True)
+class PassportTable:
+    """A passport by its file or published name, at a temperature, perhaps scaled to a modulus."""
+
+    passport: str
+    temperature: Annotated[float, Quantity("K", "T", "temperature", example="20 degC")] | None = (
+        None
+    )
+    rubbery_modulus: Annotated[float, cards(Elastic)["rubbery_modulus"].card] | None = None
+
+
+def material_of(given: Any, reading: Reading) -> Material:
+    """Return the material that a table [material] states."""
+    where, table = f"{reading.where}, [material]", reading.given(given, "material")
+    if "passport" in table:
+        passport, kelvin = _passport(given, reading)
+        with placed(where):
+            if not reading.pure:
+                return passport.material if kelvin is None else passport.at_temperature(kelvin)
+            if kelvin is not None:
+                raise InputError(
+                    "temperature has no effect on a dimensionless problem, because its rate is "
+                    "relative to the time of the material"
+                )
+            return passport.material.reduced()
+    kind = reading.choice(table, "material", "model", reading.nouns.materials, OWN)
+    del table["model"]
+    if reading.pure:
+        implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
+        table = {k: v for k, v in implied.items() if k in cards(kind)} | table
+    if {"modulus_ratio", "rubbery_modulus"} <= table.keys():
+        if "glassy_modulus" in table:
+            raise InputError(
+                f"{where} modulus_ratio and glassy_modulus determine each other; give only one",
+                field="material.modulus_ratio",
+            )
+        card, name = cards(Elastic)["rubbery_modulus"].card, "modulus_ratio"
+        ratio = reading.key("material", name, card_of(ModulusRatio), table.pop(name))
+        glassy = reading.key("material", "rubbery_modulus", card, table["rubbery_modulus"]) / ratio
+        table["glassy_modulus"] = glassy if reading.pure else f"{glassy!r} Pa"
+    if kind is not Prony or "file" not in table:
+        return read_as(kind, table, reading, "material")
+    file = reading.file("material", "file", table.pop("file"))
+    # without dimensions the unit of the file is that of the rate
+    units = {"modulus_ratio": "1", "relaxation_time": "" if reading.pure else "s"}
+    ratios, times = read_quantities(file, units).values()
+    plain = read_as(Elastic, table, reading, "material")
+    branches = tuple(
+        (ratio * plain.rubbery_modulus, t) for ratio, t in zip(ratios, times, strict=True)
+    )
+    with placed(f"{file}:"):
+        return Prony(**vars(plain), branches=branches)
+
+
+def _passport(given: Any, reading: Reading) -> tuple[Passport, float | None]:
+    """Return the passport that a table names, and the requested temperature [K]."""
+    table = read_as(PassportTable, given, replace(reading, pure=False), "material")
+    if table.passport in MATERIALS:
+        passport = published(table.passport)
+    else:
+        file = reading.file("material", "passport", table.passport)
+        passport = read_passport(file, also=reading.nouns.materials.values())
+    modulus = table.rubbery_modulus
+    if modulus is not None:  # of a like material
+        factor = modulus / passport.material.rubbery_modulus
+        passport = replace(
+            passport,
+            name=f"{passport.name}, scaled to {readable(modulus, 'Pa')}",
+            material=scaled(passport.material, modulus=factor, time=1.0),
+            evidence=None,
+            allowed=(),
         )
-    return given[0] if given else FlatPunch.word if Layer.word in tables else Sphere.word
+    return passport, table.temperature
+
+
+def passport_of(tables: Tables, reading: Reading) -> tuple[Passport | None, float]:
+    """Return the passport of a problem's material at its temperature, and the doubt of its shift.
+
+    The parameters are those of :func:`problem_of`, which has checked the tables.
+
+    Returns
+    -------
+    passport : Passport or None
+        Moved to the temperature of the case; None if numbers define the material.
+    deviation : float
+        Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
+    """
+    if "passport" not in tables["material"]:
+        return None, 0.0
+    passport, kelvin = _passport(tables["material"], reading)
+    if kelvin is None:
+        return passport, 0.0
+    return passport.moved_to(kelvin), passport.shift_deviation(kelvin)
+
+
+STRENGTH = Quantity("Pa", "sigma0", "largest tension of the law", above=0, example="100 kPa")
+_SCALES = ("work_of_adhesion", "equilibrium_gap")
+
+
+def law_from_table(given: Any, reading: Reading) -> Traction:
+    """Return the law of the table [interface].
+
+    Its range is equilibrium_gap or strength. A law that grows or ages has the word of its law at
+    rest as ``base``, and the constants of both.
+    """
+    table = reading.given(given, "interface")
+    kind = reading.choice(table, "interface", "law", reading.nouns.laws, OWN)
+    del table["law"]
+    if reading.pure:
+        table = dict.fromkeys(_SCALES, 1.0) | table
+    if not has_rest(kind):
+        law = _of_gap(kind, table, reading)
+        return law.reduced() if reading.pure else law
+    rest = {word: law for word, law in reading.nouns.laws.items() if not has_rest(law)}
+    table = {"base": LennardJones.word} | table
+    base = reading.choice(table, "interface", "base", rest, OWN)
+    growth = {field.name for field in _constants(kind)}
+    of_base = {*cards(base), "strength", "file", "points"} - growth
+    at_rest: Any = _of_gap(base, {k: v for k, v in table.items() if k in of_base}, reading)
+    scales = dict.fromkeys(_SCALES, 1.0) if reading.pure else with_units(at_rest)
+    own = {k: v for k, v in table.items() if k not in of_base}
+    own |= {k: scales[k] for k in _SCALES} | {"base": at_rest.reduced()}
+    return read_as(kind, own, reading, "interface")
+
+
+def _of_gap(kind: Any, table: Tables, reading: Reading) -> Any:
+    """Return a law of the gap alone."""
+    if kind is Tabulated and "file" in table:
+        file = reading.file("interface", "file", table["file"])
+        columns = read_quantities(file, {"gap": "m", "traction": "Pa"})
+        with placed(f"{file}:"):
+            return Tabulated.of_points(columns["gap"], columns["traction"])
+    if "strength" not in table:
+        return read_as(kind, table, reading, "interface")
+    if "equilibrium_gap" in table:
+        raise InputError(
+            f"{reading.where}, [interface] strength and equilibrium_gap determine each other; "
+            "give only one",
+            field="interface.strength",
+        )
+    table = dict(table)
+    strength = reading.key("interface", "strength", STRENGTH, table.pop("strength"))
+    law = read_as(kind, table | {"equilibrium_gap": "1 m"}, reading, "interface")
+    gap = law.reduced().strength * law.work_of_adhesion / strength
+    return replace(law, equilibrium_gap=gap)
+
+
+def _table_of_law(law: Any, *, pure: bool) -> dict[str, Any]:
+    """Return the table [interface] of a law, with numbers in SI."""
+    found, table = stated(law), {"law": law.word}
+    if (base := found.pop("base", None)) is not None:
+        own = {k: v for k, v in stated(base).items() if k not in _SCALES}
+        table |= {"base": base.word, **own}
+    return {k: v for k, v in (table | found).items() if not (pure and k in _SCALES)}
+
+
+def law_from_words(words: str, beside: Callable[[str], Path] = Path) -> Traction:
+    """Return the reduced law stated by an option: its name and, after a colon, its constants.
+
+    `beside` returns the path of a file that it names.
+
+    Examples
+    --------
+    >>> law_from_words("exponential:0.25")
+    Exponential(work_of_adhesion=1.0, equilibrium_gap=1.0, decay=0.25)
+    >>> law_from_words("dugdale").strength
+    1.0
+
+    For a law that grows with the opening speed or ages in contact, the law at rest follows after a
+    second colon:
+
+    >>> law_from_words("gent-schultz:10,0.4:exponential:0.25").base.decay
+    0.25
+    """
+    return law_from_table(table_of_words(words), Reading("the law", beside=beside, pure=True))
+
+
+def table_of_words(words: str, laws: Mapping[str, Any] = LAWS) -> dict[str, Any]:
+    """Return the table [interface] that the words of an option state.
+
+    Examples
+    --------
+    >>> table_of_words("gent-schultz:10,0.4:exponential:0.25")["base"]
+    'exponential'
+    """
+    name, _, rest = words.partition(":")
+    if name not in laws:
+        said = f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}"
+        raise UnknownNoun(said, field="law")
+    kind: Any = laws[name]
+    if kind is Tabulated:
+        if not rest:
+            raise InputError("the law table needs a file: table:FILE.csv")
+        return {"law": name, "file": rest}
+    base = ""
+    if has_rest(kind):
+        rest, _, base = rest.partition(":")
+    constants = [constant.name for constant in _constants(kind)]
+    needed = [constant.name for constant in _constants(kind) if constant.needed]
+    given = rest.split(",") if rest else []
+    if not len(needed) <= len(given) <= len(constants):
+        wanted = ",".join(constant.upper() for constant in constants)
+        more = "[:LAW AT REST]" if has_rest(kind) else ""
+        raise InputError(f"write {name}{':' if wanted else ''}{wanted}{more}, got {words!r}")
+    of_base = table_of_words(base, laws) if base else {}
+    of_base = {"base" if key == "law" else key: value for key, value in of_base.items()}
+    return {**of_base, "law": name, **dict(zip(constants, given, strict=False))}
+
+
+def _constants(kind: Any) -> list[Field]:
+    """Return the cards of a law except work and gap."""
+    return [field for name, field in cards(kind).items() if name not in _SCALES]
 
 
 @dataclass(frozen=True)
@@ -350,14 +601,8 @@ def _shape(given: Any, name: str, reading: Reading) -> Any:
                 f"{reading.where}, [{name}] file states the whole profile; leave out {key}",
                 field=f"{name}.{key}",
             )
-        try:
-            file = reading.file(name, "file", table["file"])
-            return measured_profile(file, pure=reading.pure)
-        except ValueError as error:
-            already = str(error).startswith(reading.where)
-            raise InputError(
-                str(error) if already else f"{reading.where}, [{name}] {error}"
-            ) from None
+        with placed(f"{reading.where}, [{name}]"):
+            return _measured(reading.file(name, "file", table["file"]), pure=reading.pure)
     if reading.pure and kind is Sphere:
         return read_as(kind, {"radius": 1.0} | dict(table), reading, name)
     if kind is not PowerLawProfile:
@@ -373,13 +618,12 @@ def _shape(given: Any, name: str, reading: Reading) -> Any:
     return PowerLawProfile(point.height / point.at_radius**point.exponent, point.exponent)
 
 
-def measured_profile(file: Path, *, pure: bool = False) -> MeasuredProfile:
+def _measured(file: Path, *, pure: bool) -> MeasuredProfile:
     """Return the profile of a CSV file with the columns radius and height.
 
     Without dimensions radii are in beta and heights in any unit, scaled to the equivalent radius 1.
     """
-    unit = "1" if pure else "m"
-    columns = read_quantities(file, {"radius": unit, "height": unit})
+    columns = read_quantities(file, dict.fromkeys(("radius", "height"), "1" if pure else "m"))
     shape = MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
     return shape.reduced(1.0, 1 / shape.equivalent_radius(1.0)) if pure else shape
 
@@ -425,118 +669,130 @@ def _surface(given: Any, reading: Reading) -> StatedSurface:
     return read_as(StatedSurface, table, reading, "surface")
 
 
-def passport_of(
-    tables: Tables, reading: Reading, temperature: float | None = None
-) -> tuple[Passport | None, float]:
-    """Return the passport of a problem's material at its temperature, and the doubt of its shift.
-
-    The parameters are those of :func:`problem_of`, which has checked the tables.
-
-    Returns
-    -------
-    passport : Passport or None
-        Moved to the temperature of the case; None if numbers define the material.
-    deviation : float
-        Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
-    """
-    if "passport" not in tables["material"]:
-        return None, 0.0
-    return moved(*_passport(tables["material"], reading, temperature))
-
-
-def moved(passport: Passport, temperature: float | None) -> tuple[Passport, float]:
-    """Return a passport at a temperature [K], and the standard deviation of its log10 a_T."""
-    if temperature is None:
-        return passport, 0.0
-    return passport.moved_to(temperature), passport.shift_deviation(temperature)
+# Keys of starts, by the unit of a force: that of a punch is a mean stress, and [groups] have none.
+STARTS: Mapping[str, Mapping[str, Any]] = {
+    "N": {"preload_depth": AtDepth, "preload_force": AtForce, "preload_radius": AtRadius},
+    "Pa": {"preload_depth": AtDepth, "preload_stress": AtForce},
+    "1": {
+        "preload": AtDepth,
+        "preload_force": AtForce,
+        "preload_radius": AtRadius,
+        "apart": Apart,
+    },
+}
+_Depth = Annotated[float, cards(AtDepth)["depth"].card]
+_Force = Annotated[float, cards(AtForce)["force"].card]
+_Radius = Annotated[float, cards(AtRadius)["contact_radius"].card]
+_Apart = Annotated[float, cards(Apart)["gap"].card]
+_Stress = Annotated[
+    float,
+    Quantity("Pa", "p", "mean stress of the relaxed start of a punch", measure="force"),
+]
 
 
 @dataclass(frozen=True)
-class PassportTable:
-    """A passport by its file or published name, at a temperature, perhaps scaled to a modulus."""
+class ProtocolTable:
+    """The table [protocol]: one start, moves and their repetitions, a retraction, the machine."""
 
-    passport: str
-    temperature: Annotated[float, Quantity("K", "T", "temperature", example="20 degC")] | None = (
-        None
-    )
-    rubbery_modulus: Annotated[float, cards(Elastic)["rubbery_modulus"].card] | None = None
+    preload_depth: _Depth | None = None
+    preload_force: _Force | None = None
+    preload_stress: _Stress | None = None
+    preload_radius: _Radius | None = None
+    start: str | None = None
+    history: str | None = None
+    moves: tuple[str | dict[str, str | float], ...] = ()
+    cycles: Annotated[int, Exact] = 1
+    speed: Speed | None = None
+    stiffness: Stiffness | None = None
+
+    def __post_init__(self) -> None:
+        if self.cycles < 1:
+            raise InputError(f"cycles must be a positive integer, got {self.cycles!r}")
 
 
-def material_of(given: Any, reading: Reading, temperature: float | None = None) -> Material:
-    """Return the material that a table [material] states."""
-    where, table = f"{reading.where}, [material]", reading.given(given, "material")
-    if "passport" in table:
-        passport, kelvin = _passport(given, reading, temperature)
-        if reading.pure:
-            if kelvin is not None:
-                raise InputError(
-                    f"{where} temperature has no effect on a dimensionless problem, because its "
-                    "rate is relative to the time of the material"
-                )
-            return passport.material.reduced()
-        try:
-            return passport.material if kelvin is None else passport.at_temperature(kelvin)
-        except ValueError as error:
-            raise InputError(f"{where} {error}") from None
-    if temperature is not None:
-        raise InputError(
-            f"{reading.where}: a temperature of {temperature:g} K needs a material from a "
-            'passport, which contains the shift of its times; [material] passport = "pdms.toml"'
-        )
-    kind = reading.choice(table, "material", "model", reading.nouns.materials, OWN)
-    del table["model"]
-    if reading.pure:
-        implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
-        table = {k: v for k, v in implied.items() if k in cards(kind)} | table
-    if {"modulus_ratio", "rubbery_modulus"} <= table.keys():
-        if "glassy_modulus" in table:
+@dataclass(frozen=True)
+class GroupsTable:
+    """The table [groups]: the dimensionless numbers of a problem and its test."""
+
+    tabor: Tabor | None = None
+    cohesion: Cohesion | None = None
+    preload: _Depth | None = None
+    preload_force: _Force | None = None
+    preload_radius: _Radius | None = None
+    apart: _Apart | None = None
+    moves: tuple[str, ...] = ()
+    rate: Rate | None = None
+    stiffness: Spring | None = None
+
+
+def _protocol(given: Any, reading: Reading, equilibrium_gap: float) -> Retraction:
+    """Return the test stated by the table [protocol].
+
+    The equilibrium gap [m] defines the zero of the displacement of a history.
+    """
+    table = read_as(ProtocolTable, given, reading, "protocol")
+    where, moves = f"{reading.where}, [protocol]", tuple[Move, ...]()
+    if table.history is not None:
+        for key in (*_starts(table), *(["moves"] if table.moves else [])):
             raise InputError(
-                f"{where} modulus_ratio and glassy_modulus determine each other; give only one",
-                field="material.modulus_ratio",
+                f"{where} history states the start and the moves; omit {key}",
+                field=f"protocol.{key}",
             )
-        card, name = cards(Elastic)["rubbery_modulus"].card, "modulus_ratio"
-        ratio = reading.key("material", name, card_of(ModulusRatio), table.pop(name))
-        glassy = reading.key("material", "rubbery_modulus", card, table["rubbery_modulus"]) / ratio
-        table["glassy_modulus"] = glassy if reading.pure else f"{glassy!r} Pa"
-    if kind is Prony and "file" in table:
-        return _prony(table, reading)
-    return read_as(kind, table, reading, "material")
-
-
-def _passport(
-    given: Any, reading: Reading, temperature: float | None
-) -> tuple[Passport, float | None]:
-    """Return the passport beside the file, and the requested temperature [K]."""
-    table = read_as(PassportTable, given, replace(reading, pure=False), "material")
-    if table.passport in MATERIALS:
-        passport = published(table.passport)
-    else:
-        file = reading.file("material", "passport", table.passport)
-        passport = read_passport(file, also=reading.nouns.materials.values())
-    if table.rubbery_modulus is not None:
-        passport = _scaled(passport, table.rubbery_modulus)
-    return passport, table.temperature if temperature is None else temperature
-
-
-def _scaled(passport: Passport, modulus: float) -> Passport:
-    """Return a passport whose moduli are scaled to a rubbery modulus [Pa], for a like material."""
-    factor = modulus / passport.material.rubbery_modulus
-    solid = scaled(passport.material, modulus=factor, time=1.0)
-    words = f"{passport.name}, scaled to {readable(modulus, 'Pa')}"
-    return replace(passport, name=words, material=solid, evidence=None, allowed=())
-
-
-def _prony(table: dict[str, Any], reading: Reading) -> Prony:
-    """Return a Prony series with branches from a file, as moduli over the rubbery modulus."""
-    ratios, unit = read_prony(reading.file("material", "file", table.pop("file")))
-    if unit == "1" and not reading.pure:
-        raise InputError(
-            f"{reading.where}, [material] file: the times have no unit; name the column "
-            "relaxation_time_s"
+        file = reading.file("protocol", "history", table.history)
+        start, moves = history_from_file(file, equilibrium_gap)
+    with placed(where, "protocol"):
+        if table.history is None:
+            start = _start(table, reading.units)
+            check_number_of_moves(len(table.moves))
+            moves = tuple(move_from_words(move, reading.units) for move in table.moves)
+        check_number_of_moves(table.cycles * len(moves))
+        if table.speed is None and not moves:
+            raise InputError(
+                'speed is missing; write for example speed = "100 um/s"', field="protocol.speed"
+            )
+        return Retraction(
+            start=start, speed=table.speed, moves=moves * table.cycles, stiffness=table.stiffness
         )
-    plain = read_as(Elastic, table, reading, "material")
-    # without dimensions the unit of the file is that of the rate
-    second = 1.0 if reading.pure else parse(f"1 {unit}", "s")
-    E0 = plain.rubbery_modulus
-    branches = tuple((ratio * E0, time * second) for ratio, time in ratios)
-    return Prony(rubbery_modulus=E0, poisson_ratio=plain.poisson_ratio, branches=branches)
+
+
+def _test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
+    """Return the numbers and the test of the table [groups], as arguments of Groups."""
+    table = read_as(GroupsTable, given, reading, "groups")
+    with placed(f"{reading.where}, [groups]", "groups"):
+        start = _start(table, reading.units)
+        moves = tuple(move_from_words(move, reading.units) for move in table.moves)
+    numbers = ("tabor", "cohesion", "rate", "stiffness")
+    return {"start": start, "moves": moves, **{name: getattr(table, name) for name in numbers}}
+
+
+def _starts(table: ProtocolTable | GroupsTable) -> list[str]:
+    """Return the keys of the starts that a table states."""
+    keys = {"start", *(key for starts in STARTS.values() for key in starts)}
+    return [key for key, value in vars(table).items() if key in keys and value is not None]
+
+
+def _start(table: ProtocolTable | GroupsTable, units: Mapping[str, str]) -> Start | Apart:
+    """Return the start that a table states; InputError unless it is a single one."""
+    starts, given, example = STARTS[units["force"]], _starts(table), ""
+    possible = tuple(starts)
+    if isinstance(table, ProtocolTable):
+        possible += ("start",)
+        example = '; write for example preload_depth = "2 um", or start = "apart 20 um"'
+    if len(given) != 1 or given[0] not in possible:
+        raise InputError(
+            f"needs exactly one of {', '.join(possible)}, got "
+            f"{' and '.join(given) or 'none'}{example}"
+        )
+    value = getattr(table, given[0])
+    return start_from_words(value, units) if given == ["start"] else starts[given[0]](value)
+
+
+def _table_of_test(test: Any, units: Mapping[str, str], **numbers: float | None) -> dict[str, Any]:
+    """Return the table [protocol] or [groups] of a test, with its speed or rate."""
+    starts = {kind: key for key, kind in STARTS[units["force"]].items()}
+    key, value = starts.get(type(test.start), "start"), test.start.value
+    found: dict[str, Any] = {key: f"apart {value!r} {units['depth']}" if key == "start" else value}
+    if test.moves:
+        found["moves"] = [words_of_move(move, units) for move in test.moves]
+    numbers |= {"stiffness": test.stiffness}
+    return found | {name: number for name, number in numbers.items() if number is not None}

@@ -13,9 +13,8 @@ from typing import Any
 from viscotack.cards import Pairs, Quantity, cards, unusual
 from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, Layer, PowerLawProfile
-from viscotack.model.problem.case_file import ProfilePoint
+from viscotack.model.problem.case_file import STARTS, ProfilePoint
 from viscotack.model.problem.problem import Groups, Problem
-from viscotack.model.problem.protocol_table import STARTS, STARTS_IN_GROUPS
 from viscotack.model.problem.rough_case import RoughCase
 from viscotack.model.protocol import Apart
 
@@ -211,7 +210,7 @@ def _path(problem: Any, steps: Steps) -> str:
     keys = list(steps if in_groups else rest)
     if keys[0] == "start":
         start = problem.start if in_groups else problem.protocol.start
-        starts = STARTS_IN_GROUPS if in_groups else STARTS[problem.units["force"]]
+        starts = STARTS["1" if in_groups else problem.units["force"]]
         keys = [{kind: key for key, kind in starts.items()}.get(type(start), Apart.word)]
     return ".".join(map(str, keys if in_groups else ("protocol", *keys)))
 

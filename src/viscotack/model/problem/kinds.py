@@ -19,8 +19,8 @@ from viscotack.model.materials import RetardationPowerLaw, StandardSolid
 from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.materials.random_solids import LAST, random_solid
 from viscotack.model.problem import Groups, Problem, RoughCase, plane, revolution
+from viscotack.model.problem.case_file import STARTS
 from viscotack.model.problem.inputs import Input, changed, check_paths, inputs_of
-from viscotack.model.problem.protocol_table import STARTS_IN_GROUPS
 from viscotack.model.protocol import Apart
 
 Inputs = Mapping[str, float]
@@ -64,7 +64,7 @@ class Kind:
             )
 
 
-_STARTS = {key: kind for key, kind in STARTS_IN_GROUPS.items() if kind is not Apart}
+_STARTS = {key: kind for key, kind in STARTS["1"].items() if kind is not Apart}
 
 _UNIT: dict[str, Any] = {"rubbery_modulus": 1.0, "tau0": 1.0, "poisson_ratio": 0.0}
 # Kind -> its solid of a row and a modulus ratio, its inputs, and its starts.

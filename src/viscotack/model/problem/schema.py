@@ -1,141 +1,27 @@
-"""Problems as plain dictionaries for JSON, with ids by content, a schema and tables of numbers.
+"""JSON schema of the tables of a problem, and tables of its numbers for people, from the cards."""
 
-Schema and tables are generated from the cards.
-"""
-
-import hashlib
-import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING
-from pathlib import Path
 from typing import Any
 
 from viscotack.cards import Field, Pairs, Quantity, card_of, cards
-from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, Cone, HalfSpace, Layer, PowerLawProfile
 from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.problem import plane
 from viscotack.model.problem.case_file import (
+    STRENGTH,
+    GroupsTable,
     LayerTable,
     PassportTable,
     ProfilePoint,
-    problem_of,
-    tables_of,
+    ProtocolTable,
 )
-from viscotack.model.problem.law_table import STRENGTH
 from viscotack.model.problem.nouns import known
-from viscotack.model.problem.problem import Groups, Problem
-from viscotack.model.problem.protocol_table import GroupsTable, ProtocolTable
-from viscotack.model.problem.rough_case import RoughCase, StatedSurface
+from viscotack.model.problem.problem import Groups
+from viscotack.model.problem.rough_case import StatedSurface
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
-from viscotack.model.tables import Reading, adapter
+from viscotack.model.tables import adapter
 from viscotack.model.traction import has_rest
-
-
-def to_dict(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
-    """Convert a problem to the tables of its file, with numbers in SI.
-
-    Values equal to the default are omitted, so that new options do not change the ids of old
-    problems. The dictionary contains only dictionaries, lists, texts and numbers: ``json.dumps``
-    writes it, and :func:`from_dict` restores an equal object.
-
-    Parameters
-    ----------
-    problem : Problem, Groups or RoughCase
-        Object to convert.
-
-    Returns
-    -------
-    dict
-        Ready for JSON.
-
-    Raises
-    ------
-    InputError
-        If the object is not a problem.
-
-    Examples
-    --------
-    >>> from viscotack import AtDepth, Groups, StandardSolid
-    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    >>> to_dict(Groups(tabor=2, material=solid, start=AtDepth(20), rate=1))["groups"]
-    {'tabor': 2.0, 'preload': 20.0, 'rate': 1.0}
-    """
-    if not isinstance(problem, Problem | Groups | RoughCase):
-        raise InputError(f"expected a Problem or Groups, got {type(problem).__name__}")
-    return tables_of(problem)
-
-
-def from_dict(
-    record: Mapping[str, Any],
-    also: Iterable[Any] = (),
-    *,
-    beside: Callable[[str], Path] | None = None,
-) -> Any:
-    """Restore a problem from a dictionary of :func:`to_dict`, or from the tables of a file.
-
-    Parameters
-    ----------
-    record : dict
-        Tables of a problem. Numbers without a unit are in SI.
-    also : iterable of classes
-        User-defined laws, materials, shapes and bodies that it may name.
-    beside : callable, optional
-        Returns the path of a file named in a table; without it tables may not name files.
-
-    Returns
-    -------
-    Problem, Groups or RoughCase
-        Equal to the original object.
-
-    Raises
-    ------
-    InputError
-        If a table or key is missing or unknown, or a value is invalid.
-
-    Examples
-    --------
-    >>> tables = {
-    ...     "groups": {"tabor": 3.24, "preload": 73, "rate": 316.23},
-    ...     "material": {"model": "power-law", "modulus_ratio": 0.1, "exponent": 0.8},
-    ... }
-    >>> from_dict(tables).start
-    AtDepth(depth=73.0)
-    """
-    return problem_of(record, Reading("the problem", known(also), beside, bare=True))
-
-
-def run_id(case: Any) -> str:
-    """Return a short id that depends only on the content of a problem.
-
-    Equal problems have equal ids, on all machines.
-
-    Parameters
-    ----------
-    case : Problem or Groups
-        The problem.
-
-    Returns
-    -------
-    str
-        Hexadecimal digits.
-
-    Raises
-    ------
-    InputError
-        If the object is not a problem.
-
-    Examples
-    --------
-    >>> from viscotack import AtDepth, Groups, StandardSolid
-    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    >>> one, same = (Groups(tabor=2, material=solid, start=AtDepth(d), rate=1) for d in (20, 20.0))
-    >>> run_id(one) == run_id(same)
-    True
-    """
-    text = json.dumps(to_dict(case), sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
 
 _TEXT: dict[str, Any] = {"type": "string"}
 
