@@ -8,7 +8,7 @@ from viscotack.app.operations.request import Caller
 from viscotack.app.operations.statement import statement
 from viscotack.campaign import CaseSettings, read_plan, space_filling
 from viscotack.campaign.design import grid
-from viscotack.model.problem.kinds import KINDS
+from viscotack.model.problem.rows import KINDS
 from viscotack.simulate import has_start
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}

@@ -13,7 +13,7 @@ import synthetic
 from campaign_work import Inline, dangerous, interrupting, picky, plan_of, stand_in, told
 from viscotack.campaign import CannotRun, CaseSettings, Store, measure, run
 from viscotack.campaign.running import attempt
-from viscotack.model.problem.kinds import kind_of_problem
+from viscotack.model.problem.rows import kind_of_problem
 
 HERE = Path(__file__).parent
 PACKAGES = [path for path in [os.environ.get("PYTHONPATH")] if path]

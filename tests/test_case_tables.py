@@ -8,7 +8,7 @@ import pytest
 import viscotack as vt
 from command_line import exit_status, rows_of
 from viscotack.app.operations import ask
-from viscotack.model.problem.changes import changes_of
+from viscotack.model.problem.rows import changes_of
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "from_toml"
 LENS, PAD = (EXAMPLES / "lens.toml").read_text(), EXAMPLES / "pad.toml"

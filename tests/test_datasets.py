@@ -10,7 +10,7 @@ import viscotack as vt
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 
-from viscotack.model.problem.kinds import KINDS  # noqa: E402
+from viscotack.model.problem.rows import KINDS  # noqa: E402
 
 INPUTS = {
     "sphere": ("tabor", "modulus_ratio", "exponent", "preload", "rate"),

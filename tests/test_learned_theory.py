@@ -7,7 +7,7 @@ import pytest
 
 import viscotack as vt
 from solids import creep_power_law
-from viscotack.model.problem.kinds import KINDS
+from viscotack.model.problem.rows import KINDS
 from viscotack.prediction.surrogate import short_range, store
 from viscotack.prediction.surrogate.physics import INPUTS
 from viscotack.prediction.tiers import AT_ONCE

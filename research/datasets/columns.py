@@ -6,8 +6,8 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.model.materials.random_solids import creep_spectrum
-from viscotack.model.problem.kinds import INPUTS, KINDS
 from viscotack.model.problem.outputs import PLANE, REVOLUTION, Kind
+from viscotack.model.problem.rows import INPUTS, KINDS
 
 # Lower bounds of stated relative errors, which hold in 95 % of the
 # rows: for all spheres, for deeply pressed ones, and for those of large Tabor number and small

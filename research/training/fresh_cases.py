@@ -21,7 +21,7 @@ import numpy as np
 
 from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, solve, work_to_pull_off
 from viscotack.model.materials.random_solids import STRETCHED, creep_spectrum
-from viscotack.model.problem.kinds import KINDS
+from viscotack.model.problem.rows import KINDS
 from viscotack.prediction.surrogate import linear_solids, physics, punch_physics, short_range
 from viscotack.prediction.surrogate.linear_solids import TIMES, SolidContact
 from viscotack.prediction.surrogate.model import Surrogate

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from scipy.stats import qmc
 
 from viscotack.errors import InputError
-from viscotack.model.problem.kinds import KINDS
+from viscotack.model.problem.rows import KINDS
 from viscotack.prediction.surrogate import short_range
 from viscotack.prediction.surrogate.contact import Contact
 from viscotack.prediction.surrogate.model import Surrogate

@@ -11,9 +11,15 @@ from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.model.problem import RoughCase
 from viscotack.model.problem.case_file import from_dict, read_case, run_id, to_dict
-from viscotack.model.problem.changes import Column, columns_of
-from viscotack.model.problem.kinds import KINDS, Kind, kind_of_columns, kind_of_problem
 from viscotack.model.problem.nouns import own_nouns
+from viscotack.model.problem.rows import (
+    KINDS,
+    Column,
+    Kind,
+    columns_of,
+    kind_of_columns,
+    kind_of_problem,
+)
 from viscotack.model.tables import Reading, read_as
 from viscotack.simulate import has_start
 from viscotack.simulate.rough import read_rough_case
@@ -91,7 +97,7 @@ class _Listed:
         self.path = path
         headings = read_words(path)[0]
         self.kind = kind or kind_of_columns(headings)
-        self.columns, unknown = columns_of(headings, self.kind.inputs, in_si=self.kind.in_si)
+        self.columns, unknown = columns_of(headings, self.kind.inputs)
         if unknown:
             raise InputError(
                 f"{path}: the columns {', '.join(unknown)} are no inputs; they are "
@@ -471,5 +477,5 @@ def _read(kind: Kind, name: str, given: Any) -> Any:
     if isinstance(given, bool):
         raise InputError(f"{name} must be a number, got {given}")
     entry = kind.inputs[name]
-    number = Column(name, entry, "", kind.in_si).read(given)
+    number = Column(name, entry).read(given)
     return entry.card.checked(name, number, entry.unit)

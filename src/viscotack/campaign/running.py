@@ -30,7 +30,7 @@ from time import monotonic, perf_counter, sleep
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.model.problem.kinds import Kind
+from viscotack.model.problem.rows import Kind
 from viscotack.system import Processes, begin_worker
 
 from .case import CaseSettings, Unsolved, identity, measure

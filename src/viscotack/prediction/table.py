@@ -20,7 +20,7 @@ from .prediction import MEASURED
 from .tier import LEARNED_PUNCH, SURROGATE
 
 if TYPE_CHECKING:
-    from viscotack.model.problem.kinds import Kind
+    from viscotack.model.problem.rows import Kind
 
 
 def with_interval(name: str) -> tuple[str, str, str]:
@@ -47,7 +47,7 @@ def kind_of(names: Collection[str]) -> Kind:
     >>> kind_of(("size", "thickness", "cohesion", "modulus_ratio", "rate", "preload")).name
     'punch'
     """
-    from viscotack.model.problem.kinds import KINDS
+    from viscotack.model.problem.rows import KINDS
 
     return KINDS["punch" if "tabor" not in names and "size" in names else "sphere"]
 

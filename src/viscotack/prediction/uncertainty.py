@@ -28,7 +28,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.materials.conversion import slowed
 from viscotack.model.problem import Case
-from viscotack.model.problem.kinds import kind_of_problem
+from viscotack.model.problem.rows import kind_of_problem
 
 from .predict import predict
 from .prediction import Prediction

@@ -161,7 +161,7 @@ def indenter_of(problem: Any) -> str:
 
 def _with_numbers(found: Statement, said: Any) -> Any:
     """Return a problem with numbers replaced, each as ``sphere.radius=6 mm``: a row of changes."""
-    from viscotack.model.problem.changes import changes_of
+    from viscotack.model.problem.rows import changes_of
 
     row: dict[str, str] = {}
     for words in said if isinstance(said, list | tuple) else [said]:
@@ -179,7 +179,11 @@ def _with_numbers(found: Statement, said: Any) -> Any:
         for column in changes.columns:
             if found.passport is not None and column.number.path.startswith("material."):
                 raise InputError(f"{column.heading}: the passport defines the whole material")
-            if column.in_si and column.number.unit != "1" and is_number(row[column.heading]):
+            if (
+                not column.number.pure
+                and column.number.unit != "1"
+                and is_number(row[column.heading])
+            ):
                 raise InputError(f"{column.heading} has no unit, got {row[column.heading]}")
         return changes.kind().problem(changes.values(row))
     except InputError as error:

@@ -16,7 +16,7 @@ from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:
     from viscotack.campaign import CaseSettings
-    from viscotack.model.problem.kinds import Kind
+    from viscotack.model.problem.rows import Kind
 
 # Exit status where some cases have no result.
 _SOME_FAILED = 4
@@ -52,7 +52,7 @@ class Sweep(Request):
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share``."""
         from viscotack.campaign import CaseSettings
-        from viscotack.model.problem.changes import changes_of
+        from viscotack.model.problem.rows import changes_of
 
         from .parts.predict_table import answered_rows, shown_rows
 

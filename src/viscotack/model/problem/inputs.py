@@ -43,6 +43,8 @@ class Input:
         Description and range.
     steps : tuple
         Attributes and indices that lead to it in the problem.
+    pure : bool
+        Whether the number is dimensionless because its problem is; its unit is then no SI unit.
     """
 
     path: str
@@ -50,6 +52,7 @@ class Input:
     unit: str
     card: Quantity
     steps: Steps = ()
+    pure: bool = False
 
 
 def inputs_of(problem: Any) -> dict[str, Input]:
@@ -82,7 +85,7 @@ def inputs_of(problem: Any) -> dict[str, Input]:
         # the parts of a dimensionless problem have the cards of those in SI
         unit = "1" if in_groups and unit not in own else unit
         path = _path(problem, steps)
-        found[path] = Input(path, value, unit, card, steps)
+        found[path] = Input(path, value, unit, card, steps, in_groups)
     if isinstance(problem, RoughCase):
         return {path: entry for path, entry in found.items() if path not in problem.unused}
     if isinstance(problem, Problem) and isinstance(problem.geometry, PowerLawProfile):

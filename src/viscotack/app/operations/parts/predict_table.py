@@ -11,8 +11,7 @@ from viscotack.campaign.listed import EMPTY, read_words
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.files.whole import Target
-from viscotack.model.problem.changes import Changes, changes_of
-from viscotack.model.problem.kinds import plain_heading
+from viscotack.model.problem.rows import Changes, changes_of, plain_heading
 from viscotack.prediction.predict import predict
 from viscotack.prediction.prediction import prediction_summary
 from viscotack.prediction.table import (
