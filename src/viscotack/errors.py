@@ -61,7 +61,7 @@ def placed(where: str, field: str = "") -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        file = where.partition(",")[0].removesuffix(":")
+        file = where.partition(", ")[0].removesuffix(":")
         if isinstance(error, InputError) and str(error).startswith(file):
             raise
         own = getattr(error, "field", "")

@@ -2,12 +2,11 @@
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, placed
 from viscotack.files.toml import read_toml
 from viscotack.model.problem import RoughCase
 from viscotack.model.problem.case_file import from_dict, read_case, run_id, to_dict
@@ -108,7 +107,7 @@ class _Listed:
         headings, lines = read_words(self.path)
         for line, words in lines:
             cells = dict(zip(headings, words, strict=True))
-            with _placed(f"{self.path}, line {line}"):
+            with placed(f"{self.path}, line {line}:"):
                 row = {c.number.path: c.read(cells[c.heading]) for c in self.columns}
                 problem = self.kind.problem(row)
             yield row, problem, ""
@@ -154,7 +153,7 @@ def read_plan(
     (1, 0.02)
     """
     path, settings = Path(path), {name: v for name, v in changed.items() if v is not None}
-    with _placed(str(path)):
+    with placed(f"{path}:"):
         is_table = path.suffix.lower() in (".csv", ".xlsx")
         tables: dict[str, Any] = {"list": [{"file": path.name}]} if is_table else read_toml(path)
         if unknown := tables.keys() - set(_KEYS):
@@ -182,16 +181,6 @@ def read_plan(
         if kind is None:
             kind = blocks[0][1].kind
     return _planned(str(path), kind, blocks, settings, problem)
-
-
-@contextmanager
-def _placed(where: str) -> Iterator[None]:
-    """Put a place before what is wrong, unless a place in this file or in another one is there."""
-    try:
-        yield
-    except (ValueError, TypeError) as error:
-        told, file = str(error), where.partition(", ")[0]
-        raise InputError(told if told.startswith(file) else f"{where}: {error}") from None
 
 
 def _blocks(path: Path, tables: Mapping[str, Any], kind: Kind | None) -> _Blocks:
@@ -317,13 +306,13 @@ def _of_problem(
 def _planned(where: str, kind: Kind, blocks: _Blocks, settings: CaseSettings, problem: Any) -> Plan:
     """Return the plan of blocks that state cases of a kind, or change this problem."""
     if problem is not None:
-        with _placed(where):
+        with placed(f"{where}:"):
             names = {name for key, block in blocks for name in _inputs(key, block)}
             kind = kind_of_problem(problem, names)
     cases: dict[str, Case] = {}
     stated, rejected, refusal = 0, 0, ""
     for number, (key, block) in enumerate(blocks, 1):
-        with _placed(f"{where}, block {number} ([[{key}]])"):
+        with placed(f"{where}, block {number} ([[{key}]]):"):
             kind.check(_inputs(key, block))
             rows = iter(block) if key == "list" else _of_ranges(kind, key, block)
             for inputs, stated_problem, why in rows:
