@@ -11,7 +11,6 @@ docs are generated from the cards. :func:`conform` checks the numbers of a noun 
 
 import math
 import types
-from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import lru_cache
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
@@ -234,7 +233,7 @@ class Field:
 
 
 @lru_cache(maxsize=256)
-def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
+def cards(noun: type, kind: type = Quantity) -> dict[str, Field]:
     """Return the fields of a noun that have a card, by name, in order of definition.
 
     Examples

@@ -128,12 +128,6 @@ def _is_own(thing: Any, module: str) -> bool:
     return is_dataclass(thing) and hasattr(thing, "function") and hasattr(thing, "words")
 
 
-def missing_members(noun: Any, room: str) -> list[str]:
-    """Return the members of a kind that a class or an object lacks."""
-    named = {field.name for field in fields(noun)} if is_dataclass(noun) else set()
-    return [name for name in MEMBERS[room] if not hasattr(noun, name) and name not in named]
-
-
 def room_of(noun: Any) -> str:
     """Return the kind of a class, a key of `MEMBERS`; InputError names missing members."""
     name = getattr(noun, "__name__", noun)
@@ -142,7 +136,8 @@ def room_of(noun: Any) -> str:
         raise InputError(f"{wrong}, which are frozen dataclasses; nor is it an Observable")
     if not isinstance(getattr(noun, "word", None), str):
         raise InputError(f'{wrong}: it has no word; write word: ClassVar[str] = "a-name"')
-    missing = {room: missing_members(noun, room) for room in MEMBERS}
+    own = {*dir(noun), *(field.name for field in fields(noun))}
+    missing = {room: [name for name in names if name not in own] for room, names in MEMBERS.items()}
     room = min(MEMBERS, key=lambda each: len(missing[each]) / len(MEMBERS[each]))
     if missing[room]:
         raise InputError(

@@ -1,13 +1,11 @@
 """JSON schema of the tables of a problem, and tables of its numbers for people, from the cards."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import MISSING
 from typing import Any
 
-from viscotack.cards import Field, Pairs, Quantity, card_of, cards
+from viscotack.cards import Pairs, Quantity, card_of, cards
 from viscotack.model.geometry import Bonded, Cone, HalfSpace, Layer, PowerLawProfile
 from viscotack.model.materials.constants import ModulusRatio
-from viscotack.model.problem import plane
 from viscotack.model.problem.case_file import (
     STRENGTH,
     GroupsTable,
@@ -126,35 +124,23 @@ def words(also: Iterable[Any] = ()) -> str:
         "The test": (AtDepth, AtForce, AtRadius, Apart, Retraction),
         "Dimensionless": (Groups,),
     }
+    heading = ["| word | symbol | unit | meaning | of |", "|---|---|---|---|---|"]
     lines: list[str] = []
     for title, kinds in rooms.items():
-        rows: dict[tuple[str, ...], list[str]] = {}
+        rows: dict[str, list[str]] = {}
         for kind in kinds:
-            for field in (*cards(kind).values(), *cards(kind, Pairs).values()):
-                rows.setdefault(_row(field), []).append(f"`{kind.__name__}`")
-        if title == "Dimensionless":
-            sizes = (Field(name, card, MISSING) for name, card in plane.SIZES.items())
-            rows |= {_row(field): ["a punch"] for field in sizes}
-        lines += [
-            f"### {title}",
-            "",
-            "| word | symbol | unit | meaning | of |",
-            "|---|---|---|---|---|",
-        ]
-        every = len(kinds) if len(kinds) > 1 else 0
-        classes = {row: "all" if len(of) == every else ", ".join(of) for row, of in rows.items()}
-        lines += [f"| {' | '.join(row)} | {of} |" for row, of in classes.items()]
+            for name, field in (cards(kind) | cards(kind, Pairs)).items():
+                card = field.card
+                unit = card.unit if isinstance(card, Quantity) else ", ".join(card.units)
+                limits = f"; must {card.range}" if getattr(card, "range", "") else ""
+                row = f"| `{name}` | {card.symbol} | {unit} | {card.words}{limits} |"
+                rows.setdefault(row, []).append(f"`{kind.__name__}`")
+        lines += [f"### {title}", "", *heading]
+        for row, of in rows.items():
+            lines.append(f"{row} {'all' if len(of) == len(kinds) > 1 else ', '.join(of)} |")
         lines.append("")
     if nouns.observables:
         lines += ["### Observables", "", "| name | measures | meaning |", "|---|---|---|"]
         lines += [f"| `{x.name}` | {x.measure} | {x.words} |" for x in nouns.observables]
         lines.append("")
     return "\n".join(lines)
-
-
-def _row(field: Field) -> tuple[str, ...]:
-    """Return word, symbol, unit and meaning of a field."""
-    card = field.card
-    unit = card.unit if isinstance(card, Quantity) else ", ".join(card.units)
-    limits = f"; must {card.range}" if getattr(card, "range", "") else ""
-    return f"`{field.name}`", card.symbol, unit, f"{card.words}{limits}"
