@@ -68,8 +68,7 @@ class FitMaterial(Dma, Shifting):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files, build the master curve and fit the model."""
-        from viscotack.model.materials.passport_file import passport_text
-        from viscotack.model.materials.passport_words import shift_lines
+        from viscotack.model.materials.passport_file import passport_text, shift_lines
         from viscotack.plot.material import draw_fit
 
         from .parts.records import fit_record
@@ -323,7 +322,7 @@ class ExportMaterial(_Converted):
 
 def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:
     """Return a passport, in words where it is not written."""
-    from viscotack.model.materials.passport_words import in_words
+    from viscotack.model.materials.passport_file import in_words
 
     from .parts.records import passport_record
 

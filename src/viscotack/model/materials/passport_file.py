@@ -1,15 +1,17 @@
-"""Read and write passports as TOML files, without loss of digits.
+"""Passports as TOML files, without loss of digits, and as text for people.
 
-Quantities are text with units, so that TOML readers of other programs need no other information.
+Quantities in files are text with units, so that TOML readers of other programs need no other
+information.
 """
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from viscotack.cards import with_units
+import numpy as np
+
+from viscotack.cards import Pairs, cards, with_units
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import Target, write_whole
@@ -17,23 +19,14 @@ from viscotack.model.materials.material import Material
 from viscotack.model.materials.passport import Evidence, Origin, Passport
 from viscotack.model.materials.shift import LAWS, FittedShift, Shift, TabulatedShift
 from viscotack.model.materials.words import MODELS, word_of
-from viscotack.model.tables import OWN, Reading, read_as
-from viscotack.units import parse
+from viscotack.model.tables import OWN, Reading, read_as, stated
+from viscotack.units import parse, readable
 
 VERSION = 1
 _TABLES = (
     "material", "convention", "temperature", "nearest_law", "range", "origin", "evidence",
     "allowed",
 )  # fmt: skip
-# What tau0 and other times of a model are.
-_TIMES = {
-    "elastic": "none",
-    "sls": "tau0 is the retardation time",
-    "prony": "branches have relaxation times",
-    "power-law": "tau0 is the characteristic retardation time",
-    "relaxation-power-law": "tau0 is the characteristic relaxation time",
-    "fractional-zener": "tau0 is the retardation time",
-}
 _NOT_STATED = "not stated"
 
 
@@ -70,45 +63,45 @@ def write_passport(passport: Passport, path: Target) -> None:
 
 def passport_text(passport: Passport) -> str:
     """Format a passport as the text of its file."""
-    lines = [
-        "# A material and its papers, written by viscotack. Moduli are Young's moduli.",
-        f"passport = {VERSION}",
-        f"name = {toml_value(passport.name)}",
-    ]
-    for name, table in _tables(passport):
-        if table:
-            lines += ["", name, *(f"{key} = {toml_value(value)}" for key, value in table.items())]
-    return "\n".join(lines) + "\n"
-
-
-def _tables(passport: Passport) -> list[tuple[str, Mapping[str, Any]]]:
-    """Return the headings of the file with their tables."""
-    solid = _solid(passport.material)
-    convention = {
-        "modulus": "E",
-        "measured": passport.measured or _NOT_STATED,
-        "times": _TIMES.get(solid["model"], "as the class of the model defines them"),
-    }
+    kind = type(passport.material)
+    known = cards(kind) | cards(kind, Pairs)
+    times = [f"{name}: {known[name].card.words}" for name in ("tau0", "branches") if name in known]
     temperature: dict[str, Any] = {}
     if passport.temperature is not None:
         temperature["reference"] = f"{passport.temperature!r} K"
     if passport.temperatures is not None:
         temperature["measured"] = [f"{T!r} K" for T in passport.temperatures]
-    bounds, fitted = passport.frequencies, passport.fitted_shift
+    fitted, bounds = passport.fitted_shift, passport.frequencies
     nearest: dict[str, Any] = {}
     if fitted is not None:
         errors = {"standard_error": list(fitted.standard_error), "misfit": fitted.misfit}
         nearest = _law(fitted.law) | errors
-    return [
-        ("[material]", solid),
-        ("[convention]", convention),
+    tables = [
+        ("[material]", _solid(passport.material)),
+        (
+            "[convention]",
+            {
+                "modulus": "E",
+                "measured": passport.measured or _NOT_STATED,
+                "times": "; ".join(times) or "none",
+            },
+        ),
         ("[temperature]", temperature | _law(passport.shift)),
         ("[nearest_law]", nearest),
         ("[range]", {"angular_frequency": [f"{w!r} rad/s" for w in bounds]} if bounds else {}),
-        ("[origin]", _stated(passport.origin)),
-        ("[evidence]", _stated(passport.evidence) if passport.evidence else {}),
+        ("[origin]", stated(passport.origin)),
+        ("[evidence]", stated(passport.evidence) if passport.evidence else {}),
         *(("[[allowed]]", _solid(allowed)) for allowed in passport.allowed),
     ]
+    lines = [
+        "# A material and its papers, written by viscotack. Moduli are Young's moduli.",
+        f"passport = {VERSION}",
+        f"name = {toml_value(passport.name)}",
+    ]
+    for name, table in tables:
+        if table:
+            lines += ["", name, *(f"{key} = {toml_value(value)}" for key, value in table.items())]
+    return "\n".join(lines) + "\n"
 
 
 def _solid(material: Any) -> dict[str, Any]:
@@ -118,22 +111,13 @@ def _solid(material: Any) -> dict[str, Any]:
 def _law(shift: Shift | None) -> dict[str, Any]:
     if shift is None:
         return {}
-    zero = f"{shift.reference_temperature!r} K"
+    table: dict[str, Any] = {"law": shift.word, "zero": f"{shift.reference_temperature!r} K"}
     if not isinstance(shift, TabulatedShift):
-        constants = with_units(shift)
-        del constants["reference_temperature"]
-        return {"law": shift.word, "zero": zero} | constants
+        return table | {k: x for k, x in with_units(shift).items() if k != "reference_temperature"}
     rows = zip(shift.temperature, shift.values, strict=True)
-    more = {"uncertainty": list(shift.uncertainty), "vertical": list(shift.vertical)}
-    return {"law": "table", "zero": zero, "shifts": [[f"{T!r} K", value] for T, value in rows]} | {
-        key: values for key, values in more.items() if values
-    }
-
-
-def _stated(record: Any) -> dict[str, Any]:
-    """Return the non-empty fields of a record."""
-    values = {field.name: getattr(record, field.name) for field in fields(record)}
-    return {key: value for key, value in values.items() if value not in ("", (), None)}
+    more = {"uncertainty": shift.uncertainty, "vertical": shift.vertical}
+    table["shifts"] = [[f"{T!r} K", value] for T, value in rows]
+    return table | {key: values for key, values in more.items() if values}
 
 
 def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Passport:
@@ -203,6 +187,11 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any], reading: Rea
             "Young's moduli, E = 2 (1 + nu) G"
         )
     temperature, nearest = tables.get("temperature", {}), tables.get("nearest_law")
+    fitted = None
+    if nearest:
+        law: Any = _shift(nearest, "nearest_law", reading)
+        errors = tuple(map(float, nearest["standard_error"]))
+        fitted = FittedShift(law, errors, float(nearest["misfit"]))
     measured = convention.get("measured", _NOT_STATED)
     reference = temperature.get("reference")
     return Passport(
@@ -210,7 +199,7 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any], reading: Rea
         material=_material(tables.get("material"), models, reading),
         temperature=None if reference is None else parse(reference, "K"),
         shift=_shift(temperature, "temperature", reading) if "law" in temperature else None,
-        fitted_shift=_fitted(nearest, reading) if nearest else None,
+        fitted_shift=fitted,
         temperatures=_span(temperature.get("measured"), "K"),
         frequencies=_span(tables.get("range", {}).get("angular_frequency"), "rad/s"),
         measured=None if measured == _NOT_STATED else measured,
@@ -245,13 +234,73 @@ def _shift(table: Mapping[str, Any], name: str, reading: Reading) -> Shift:
     return read_as(kind, constants | {"reference_temperature": zero}, reading, name)
 
 
-def _fitted(table: Mapping[str, Any], reading: Reading) -> FittedShift:
-    law: Any = _shift(table, "nearest_law", reading)
-    return FittedShift(law, tuple(map(float, table["standard_error"])), float(table["misfit"]))
-
-
 def _span(values: Any, unit: str) -> tuple[float, float] | None:
     if values is None:
         return None
     low, high = values
     return parse(low, unit), parse(high, unit)
+
+
+def in_words(passport: Passport) -> str:
+    """Format a passport as lines of text."""
+    solid = passport.material
+    model = word_of(solid)
+    lines = [f"{passport.name}: {model}"]
+    for name, field in cards(type(solid)).items():
+        number = readable(getattr(solid, name), field.card.unit, digits=5)
+        lines.append(f"  {name:<18}{number:>16}")
+    lines.append(f"  {'modulus_ratio':<18}{solid.modulus_ratio:>16.5g}")
+    if model == "prony":
+        lines.append(f"  {'branches':<18}{len(solid.branches):>16}")
+        lines += [
+            f"    {readable(E, 'Pa', digits=5):>16}{readable(t, 's', digits=5):>16}"
+            for E, t in solid.branches
+        ]
+    if passport.temperature is not None:
+        law = "no shift" if passport.shift is None else type(passport.shift).__name__
+        lines.append(f"  at {passport.temperature - 273.15:.4g} C; times shift by: {law}")
+    lines += shift_lines(passport)
+    if passport.temperatures is not None:
+        low, high = (T - 273.15 for T in passport.temperatures)
+        lines.append(f"  measured from {low:.4g} to {high:.4g} C")
+    if passport.frequencies is not None:
+        low, high = (w / (2 * np.pi) for w in passport.frequencies)
+        lines.append(f"  known from {readable(low, 'Hz', digits=3, to=high)}")
+    origin = passport.origin
+    for words in (origin.reference, origin.doi and f"doi:{origin.doi}", origin.file):
+        if words:
+            lines.append(f"  source: {words}")
+    if passport.evidence is not None:
+        for name, low, high in passport.evidence.intervals:
+            level = 100 * passport.evidence.level
+            lines.append(f"  {level:.0f} % interval of {name}: {low:.5g} to {high:.5g}")
+        lines += [f"  Not determined: {words}" for words in passport.evidence.undetermined]
+        lines += [f"  Note: {words}" for words in passport.evidence.cautions]
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def shift_lines(passport: Passport) -> list[str]:
+    """Format a table of shifts and its fitted law as lines; empty without a table."""
+    shift = passport.shift
+    if not isinstance(shift, TabulatedShift):
+        return []
+    unknown = [np.nan] * len(shift.values)
+    rows = zip(
+        shift.temperature,
+        np.asarray(shift.log10_shift(shift.temperature)),
+        shift.uncertainty or unknown,
+        shift.vertical or unknown,
+        strict=True,
+    )
+    lines = ["         T [C]   log10 a_T          +-    log10 b_T"]
+    lines += [
+        f"    {round(T - 273.15, 2) + 0.0:>10.2f}{value:>12.3f}{doubt:>12.2g}{up:>13.3f}".replace(
+            "nan", "  -"
+        )
+        for T, value, doubt, up in rows
+    ]
+    if passport.fitted_shift is None:
+        return (
+            [*lines, "  no WLF or Arrhenius law fits the table"] if len(shift.values) > 2 else lines
+        )
+    return [*lines, f"  nearest law: {passport.fitted_shift.words()}"]

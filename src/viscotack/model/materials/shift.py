@@ -220,6 +220,8 @@ class TabulatedShift:
     [3.0, -2.0]
     """
 
+    word: ClassVar[str] = "table"
+
     reference_temperature: float
     temperature: tuple[float, ...]
     values: tuple[float, ...]

@@ -15,7 +15,7 @@ from viscotack.errors import InputError, install_command
 from viscotack.identify import RateForecast
 from viscotack.lab.tack.repeats import SpeedTable, jkr_work, speed_table
 from viscotack.model.geometry import Layer
-from viscotack.model.materials.passport_words import in_words
+from viscotack.model.materials.passport_file import in_words
 from viscotack.version import __version__
 
 from ...request import write_file
