@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.errors import InputError, install_command
+from viscotack.errors import InputError, install_command, placed
 from viscotack.files.archive import check_unpacked
 from viscotack.model.surfaces.heights import MOST, HeightMap
 from viscotack.units import parse, readable
@@ -54,8 +54,24 @@ def read_topography(
     try:
         with library.open_topography(str(path)) as reader:
             channel = reader.default_channel
-            _check(channel)
-            given = _given(channel, pixel, unit)
+            shape = tuple(channel.nb_grid_pts or ())
+            if channel.dim != 2 or max(shape, default=0) > MOST:
+                raise InputError(
+                    f"it must be a map of two dimensions with up to {MOST} pixels in each "
+                    f"direction, got {' x '.join(map(str, shape)) or 'a profile'}"
+                )
+            sizes, length = channel.physical_sizes, channel.unit
+            size = sizes and f"{sizes[0]:.6g} x {sizes[1]:.6g} {length}"
+            _refuse_both("pixel", size, pixel)
+            _refuse_both("height_unit", length, unit)
+            given: dict[str, Any] = {}
+            if pixel is not None:
+                # in the unit of the file, or in m
+                units: Any = import_module("SurfaceTopography.Support.UnitConversion")
+                metre = 1.0 if length is None else units.get_unit_conversion_factor(length, "m")
+                given["physical_sizes"] = tuple(pixel / float(metre) * side for side in shape)
+            if unit is not None:
+                given |= {"unit": "m", "height_scale_factor": unit}
             found = reader.topography(**given).to_unit("m")
             heights = np.ma.filled(np.ma.asarray(found.heights(), dtype=float), np.nan)
             sides = [float(side) for side in found.pixel_size]
@@ -74,45 +90,12 @@ def read_topography(
     return HeightMap(heights, math.sqrt(sides[0] * sides[1]), periodic, notes=notes)
 
 
-def _check(channel: Any) -> None:
-    """Refuse profiles, and maps whose heights would take too much memory."""
-    shape = tuple(channel.nb_grid_pts or ())
-    if channel.dim != 2 or max(shape, default=0) > MOST:
-        raise InputError(
-            f"it must be a map of two dimensions with up to {MOST} pixels in each direction, got "
-            f"{' x '.join(map(str, shape)) or 'a profile'}"
-        )
-
-
-def _given(channel: Any, pixel: float | None, unit: float | None) -> dict[str, Any]:
-    """Return the lengths that the file does not state; InputError where both or neither do."""
-    sizes, length = channel.physical_sizes, channel.unit
-    if (sizes is None) != (pixel is not None):
-        raise InputError(
-            "pixel is missing, and the file does not state the size of the map"
-            if sizes is None
-            else f"leave pixel out: the file states {sizes[0]:.6g} x {sizes[1]:.6g} {length}"
-        )
-    if (length is None) != (unit is not None):
-        raise InputError(
-            "height_unit is missing, and the file does not state it"
-            if length is None
-            else f"leave height_unit out: the file states {length}"
-        )
-    found: dict[str, Any] = {}
-    if pixel is not None:
-        # in the unit of the file, or in m
-        metre = 1.0 if length is None else _metre(length)
-        found["physical_sizes"] = tuple(pixel / metre * side for side in channel.nb_grid_pts)
-    if unit is not None:
-        found |= {"unit": "m", "height_scale_factor": unit}
-    return found
-
-
-def _metre(unit: str) -> float:
-    """Return a unit of SurfaceTopography in m."""
-    factor: Any = import_module("SurfaceTopography.Support.UnitConversion")
-    return float(factor.get_unit_conversion_factor(unit, "m"))
+def _refuse_both(name: str, stated: str | None, given: float | None) -> None:
+    """Raise an InputError if a length is stated by both the file and the caller, or by neither."""
+    if stated is None and given is None:
+        raise InputError(f"{name} is missing, and the file does not state it")
+    if stated is not None and given is not None:
+        raise InputError(f"leave {name} out: the file states {stated}")
 
 
 # Endings of text; other files than these and .npy are read by SurfaceTopography.
@@ -164,9 +147,11 @@ def read_map(
     """
     path = Path(path)
     ending = path.suffix.lower()
-    try:
-        path.stat()  # FileNotFoundError in our words
-        if ending not in (".npy", *_TEXT) or (ending in _TEXT and _is_binary(path)):
+    with placed(f"{path}:"):
+        with open(path, "rb") as file:  # FileNotFoundError in our words
+            first = file.read(_HEADER)
+        is_binary = b"\0" in first and not first.startswith((b"\xff\xfe", b"\xfe\xff"))
+        if ending not in (".npy", *_TEXT) or (ending in _TEXT and is_binary):
             found = read_topography(path, pixel=pixel, unit=unit, periodic=periodic)
             return replace(found, notes=(*found.notes, *_doubts(found)))
         heights, side, own = (_array(path), None, None) if ending == ".npy" else _table(path)
@@ -180,8 +165,6 @@ def read_map(
         scale = own or (1.0 if unit is None else unit)
         found = HeightMap(heights * scale, size, periodic)
         return replace(found, notes=_doubts(found))
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
 
 
 def _header(lines: list[str], shape: tuple[int, ...]) -> tuple[float | None, float | None]:
@@ -204,13 +187,6 @@ def _header(lines: list[str], shape: tuple[int, ...]) -> tuple[float | None, flo
             "square; resample the map"
         )
     return across, unit
-
-
-def _is_binary(path: Path) -> bool:
-    """Whether a file is no text, such as a .dat of Zygo."""
-    with open(path, "rb") as file:
-        first = file.read(_HEADER)
-    return b"\0" in first and not first.startswith((b"\xff\xfe", b"\xfe\xff"))
 
 
 def _doubts(found: HeightMap) -> tuple[str, ...]:
@@ -257,18 +233,14 @@ def _table(path: Path) -> tuple[npt.NDArray, float | None, float | None]:
     if separator != "," and "," in first and "." not in first:
         rows = [row.replace(",", ".") for row in rows]
     cut = [row.rstrip(separator or "") for row in rows]
-    try:
-        heights = np.loadtxt(cut, delimiter=separator, comments=None, ndmin=2)
-    except ValueError:
+
+    def read(*rows: str) -> npt.NDArray | None:
+        with suppress(ValueError):
+            return np.loadtxt(rows, delimiter=separator, comments=None, ndmin=2)
+
+    heights = read(*cut)
+    if heights is None:
         # NumPy counts some rows from 0 and others from 1, and never lines that are left out
-        counts = [_count(row, separator) for row in cut]
-        line = next(n for n, x in zip(numbers, counts, strict=True) if not x or x != counts[0])
-        raise InputError(f"line {line}: a map has only numbers, equally many in each row") from None
+        line = next(n for n, row in zip(numbers, cut, strict=True) if read(cut[0], row) is None)
+        raise InputError(f"line {line}: a map has only numbers, equally many in each row")
     return heights, *_header([line for line in lines if line.startswith("#")], heights.shape)
-
-
-def _count(text: str, separator: str | None) -> int:
-    """Return how many numbers a row has, 0 if it has other words."""
-    with suppress(ValueError):
-        return np.loadtxt([text], delimiter=separator, comments=None).size
-    return 0
