@@ -6,7 +6,7 @@ import pytest
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
 from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell, Retract
-from viscotack.model.traction.resting import reduced
+from viscotack.model.traction.growing import reduced
 
 REST = vt.LennardJones(0.05, 20e-9)
 LOG = vt.LogarithmicAgeing.of(REST, reference_time=2.0, sensitivity=0.1)

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.model.traction.resting import reference_speed
+from viscotack.model.traction.growing import reference_speed
 from viscotack.theory import SteadyCrack
 from viscotack.theory.crack.contact import (
     GrowingCracks,

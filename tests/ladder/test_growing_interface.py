@@ -9,7 +9,7 @@ import viscotack as vt
 from dimensionless import ELASTIC, SOLID
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import AtDepth
-from viscotack.model.traction.resting import reduced
+from viscotack.model.traction.growing import reduced
 from viscotack.simulate import Settings
 
 REST = vt.LennardJones(0.1523, 200e-9)

@@ -2,7 +2,7 @@ r"""Growth of the work of adhesion with contact time, from tests after several d
 
 The pull-off force of an elastic sphere with forces of short range is :math:`1.5 \pi R w` (JKR), so
 the force after a time t in contact is that of a new one times :math:`1 + G(t)`. Two laws of
-:mod:`viscotack.model.traction.resting` are fitted by least squares to the logarithms of the forces:
+:mod:`viscotack.model.traction.growing` are fitted by least squares to the logarithms of the forces:
 :math:`G = s \ln(1 + t/t_0)` and :math:`G = g (1 - e^{-t/t_0})`. Each has a profile likelihood over
 t0. A logarithmic growth observed at times far above t0 alone does not determine t0: the data then
 have the work after one time and its growth in a decade.

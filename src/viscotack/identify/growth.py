@@ -22,7 +22,7 @@ import numpy.typing as npt
 from scipy.stats import chi2
 
 from viscotack.arrays import Array
-from viscotack.model.traction.resting import reference_speed
+from viscotack.model.traction.growing import reference_speed
 from viscotack.theory.crack.contact import GrowingCracks
 
 from .forward import Forward, Growth, Pulled

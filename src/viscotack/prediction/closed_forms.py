@@ -24,7 +24,7 @@ from viscotack.model.problem import Groups
 from viscotack.model.problem.accuracy import at_least, at_most
 from viscotack.model.protocol import AtDepth, Start
 from viscotack.model.traction import LennardJones, effective_range, softening
-from viscotack.model.traction.resting import check_of_gap_alone
+from viscotack.model.traction.growing import check_of_gap_alone
 from viscotack.theory import (
     CrackLaw,
     detachment,

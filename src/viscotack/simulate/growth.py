@@ -1,6 +1,6 @@
 r"""Interfaces whose tension grows with the opening speed, or with age, in one time step.
 
-A growing law (:mod:`viscotack.model.traction.resting`) has a tension of gap and opening speed,
+A growing law (:mod:`viscotack.model.traction.growing`) has a tension of gap and opening speed,
 :math:`\sigma = \sigma_0(h) + \sigma_0^+(h) \, G(\dot h)`, and in general no potential. Within one
 step, however, a potential exists. The speed at the end of the step is linear in the gap there,
 
@@ -48,7 +48,7 @@ solid and the machine lose to it. The energy balance therefore closes as well as
 quasi-static law. It does not check the speeds; the step control does (:func:`bend`).
 
 **Interface that ages in contact, in one time step.** An ageing law
-(:mod:`viscotack.model.traction.resting`) multiplies the tension of each node by :math:`F = 1 + q
+(:mod:`viscotack.model.traction.growing`) multiplies the tension of each node by :math:`F = 1 + q
 G(t)`, with the time t that the node has been in contact, and the share q of its bonds that hold. In
 a step t grows by the length of the step at the nodes in contact at its beginning, whatever the gaps
 do meanwhile, so F is known beforehand and the law has the potential

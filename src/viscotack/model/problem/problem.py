@@ -34,7 +34,7 @@ from viscotack.model.problem.revolution import Scales
 from viscotack.model.protocol import Apart, Move, Retraction, Start, Units
 from viscotack.model.protocol.moves import check_moves
 from viscotack.model.traction import LennardJones, Traction, effective_range
-from viscotack.model.traction.resting import in_si, reduced
+from viscotack.model.traction.growing import in_si, reduced
 from viscotack.units import positive
 
 Tabor = Annotated[

@@ -8,9 +8,7 @@ docs/traction-laws.md shows how to add a law.
 
 from viscotack.model.traction.dugdale import Dugdale
 from viscotack.model.traction.exponential import Exponential
-from viscotack.model.traction.law import Traction, effective_range, softening
-from viscotack.model.traction.lennard_jones import LennardJones
-from viscotack.model.traction.resting import (
+from viscotack.model.traction.growing import (
     Eyring,
     GentSchultz,
     LogarithmicAgeing,
@@ -20,6 +18,8 @@ from viscotack.model.traction.resting import (
     grows,
     has_rest,
 )
+from viscotack.model.traction.law import Traction, effective_range, softening
+from viscotack.model.traction.lennard_jones import LennardJones
 from viscotack.model.traction.tabulated import Tabulated
 
 # Word in a file or option -> law. Every constant except work, gap and the reference speed or time

@@ -24,8 +24,8 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
 from viscotack.model.traction import GentSchultz, LennardJones, Traction
-from viscotack.model.traction.resting import power_growth
-from viscotack.model.traction.resting import reference_speed as speed_of_growth
+from viscotack.model.traction.growing import power_growth
+from viscotack.model.traction.growing import reference_speed as speed_of_growth
 from viscotack.theory._checks import Values
 from viscotack.theory.crack.contact.history import Edge
 from viscotack.theory.crack.steady import NeighbourCrack, SteadyCrack

@@ -50,7 +50,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials import Modes
 from viscotack.model.traction import Dugdale, Traction, effective_range, grows
-from viscotack.model.traction.resting import check_ageless, check_of_gap_alone, reduced
+from viscotack.model.traction.growing import check_ageless, check_of_gap_alone, reduced
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.crack import greenwood, persson_brener
 from viscotack.theory.crack.steady import _balance, _branch, _grown, _mesh

@@ -1,4 +1,4 @@
-r"""Laws of traction whose tension may exceed that of a law at rest.
+r"""Laws of traction whose tension grows with the opening speed or with the time in contact.
 
 Such a law has a law of the gap alone at rest, :math:`\sigma_0(h)`, and multiplies its tensions,
 not its pressures. It stores the energy of the law at rest; what its tension does beyond is heat.
