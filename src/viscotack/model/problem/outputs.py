@@ -76,8 +76,6 @@ class Kind:
         Numbers of its summary, by name.
     cycles : mapping
         Columns of the table of its cycles, by name.
-    units : mapping
-        Units of force, depth, radius, speed, work, time and pure numbers.
     energy : Unit
         Unit of energies and works.
     energy_factor : callable
@@ -87,9 +85,16 @@ class Kind:
     series: Mapping[str, Series]
     observables: Mapping[str, Output]
     cycles: Mapping[str, Series]
-    units: Mapping[str, Unit]
     energy: Unit
     energy_factor: Factor = lambda groups: 1.0
+
+    @property
+    def units(self) -> Mapping[str, Unit]:
+        """Units of force, depth, radius, speed, work, time and pure numbers."""
+        sources = {"radius": "contact_radius", "speed": "edge_speed"}
+        names = ("force", "depth", "time", *sources)
+        units = {name: self.of(sources.get(name, name)).unit for name in names}
+        return units | {"work": self.energy, "1": _PURE}
 
     def of(self, source: str) -> Series:
         """Return the column of a series of a `Result`."""
@@ -158,15 +163,6 @@ REVOLUTION = Kind(
         "time_to_detachment": Output("time to detachment", _TIME),
     },
     cycles=_cycles("force", _FORCE, _WORK),
-    units={
-        "force": _FORCE,
-        "depth": _LENGTH,
-        "radius": _RADIUS,
-        "speed": _SPEED,
-        "work": _WORK,
-        "time": _TIME,
-        "1": _PURE,
-    },
     energy=_WORK,
 )
 
@@ -214,15 +210,6 @@ PLANE = Kind(
         "time_to_detachment": Output("time to detachment", _TIME),
     },
     cycles=_cycles("stress", _STRESS, _ENERGY),
-    units={
-        "force": _STRESS,
-        "depth": _LENGTH,
-        "radius": _WIDTH,
-        "speed": _CRACK,
-        "work": _ENERGY,
-        "time": _TIME,
-        "1": _PURE,
-    },
     energy=_ENERGY,
     # sigma_0 h_0 over Delta-gamma_0
     energy_factor=lambda groups: groups.traction.strength,
