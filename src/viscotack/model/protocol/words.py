@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.cards import cards, plausible
-from viscotack.errors import InputError
+from viscotack.errors import InputError, placed
 from viscotack.files.quantities import read_quantities
 from viscotack.units import parse
 
@@ -34,34 +34,22 @@ PUNCH_UNITS = SPHERE_UNITS | {"force": "Pa"}
 PURE_NUMBERS = dict.fromkeys(SPHERE_UNITS, "1")
 
 _STARTS = {kind.word: kind for kind in (Apart, AtDepth, AtForce, AtRadius)}
-# First word of a move -> its class, its text with the names of the fields, and that for people.
-_MOVES: Mapping[str, tuple[Any, str, str]] = {
-    "approach": (
-        Approach,
-        r"approach (?P<speed>.+?) to (?P<to>.+)",
-        "approach SPEED to depth|force|radius VALUE",
-    ),
-    "retract": (
-        Retract,
-        r"retract (?P<speed>.+?) to (?P<to>.+)",
-        "retract SPEED to depth|force|radius VALUE",
-    ),
-    "move": (
-        MoveTo,
-        r"move to (?:depth )?(?P<depth>.+?) in (?P<duration>.+)",
-        "move to DEPTH in TIME",
-    ),
-    "load": (
-        LoadTo,
-        r"load to (?:force )?(?P<force>.+?) in (?P<duration>.+)",
-        "load to FORCE in TIME",
-    ),
-    "dwell": (Dwell, r"dwell (?:for )?(?P<duration>.+)", "dwell TIME"),
-    "hold": (
-        Dwell,
-        rf"hold (?P<hold>{'|'.join(HOLDS)}) (?:for )?(?P<duration>.+)",
-        "hold drive|depth|force TIME",
-    ),
+# First word of a move -> its class and its text, by which it is read, written and explained.
+_MOVES: Mapping[str, tuple[Any, str]] = {
+    "approach": (Approach, "approach {speed} to {to}"),
+    "retract": (Retract, "retract {speed} to {to}"),
+    "move": (MoveTo, "move to {depth} in {duration}"),
+    "load": (LoadTo, "load to {force} in {duration}"),
+    "dwell": (Dwell, "dwell {duration}"),
+    "hold": (Dwell, "hold {hold} {duration}"),
+}
+_EXPLAINED = {
+    "speed": "SPEED",
+    "to": "depth|force|radius VALUE",
+    "depth": "DEPTH",
+    "force": "FORCE",
+    "duration": "TIME",
+    "hold": "|".join(HOLDS),
 }
 
 
@@ -96,25 +84,26 @@ def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) ->
     words = " ".join(str(words).split())
     word = words.partition(" ")[0]
     if word not in _MOVES:
-        shapes = ", or ".join(shape for _, _, shape in _MOVES.values())
+        shapes = ", or ".join(text.format(**_EXPLAINED) for _, text in _MOVES.values())
         raise InputError(f"{words!r} is not a move; write {shapes}")
-    kind, pattern, shape = _MOVES[word]
-    found = re.fullmatch(pattern, words)
+    kind, text = _MOVES[word]
+    parts = {name: rf"(?P<{name}>.+?)" for name in _EXPLAINED}
+    parts["hold"] = rf"(?P<hold>{'|'.join(HOLDS)})"
+    found = re.fullmatch(text.format(**parts), words)
     if found is None:
-        raise InputError(f"cannot parse {words!r}; write {shape}")
-    numbers = cards(kind)
-    fields: dict[str, Any] = found.groupdict()
-    try:
-        for name, text in fields.items():
+        raise InputError(f"cannot parse {words!r}; write {text.format(**_EXPLAINED)}")
+    numbers, fields = cards(kind), dict[str, Any](found.groupdict())
+    with placed(f"{words!r}:"):
+        for name, given in found.groupdict().items():
             if name in numbers:
                 card = numbers[name].card
-                unit = units[card.measure]
-                fields[name] = card.checked(name, plausible(name, parse(text, unit), unit), unit)
+                # "dwell for 60 s", "move to depth 1 um in 2 s"
+                bare = given.removeprefix("for ").removeprefix(f"{name} ")
+                value = plausible(name, parse(bare, units[card.measure]), units[card.measure])
+                fields[name] = card.checked(name, value, units[card.measure])
             elif name == "to":
-                fields[name] = _where(text, units)
+                fields[name] = _where(given, units)
         return kind(**fields)
-    except ValueError as error:
-        raise InputError(f"{words!r}: {error}") from None
 
 
 def words_of_move(move: Move, units: Mapping[str, str]) -> str:
@@ -130,17 +119,12 @@ def words_of_move(move: Move, units: Mapping[str, str]) -> str:
         unit = units[measure]
         return f"{value!r}" if unit == "1" else f"{value!r} {unit}"
 
-    match move:
-        case Approach() | Retract():
-            kind = "approach" if isinstance(move, Approach) else "retract"
-            end = f"{move.to.word} {quantity(move.to.value, move.to.word)}"
-            return f"{kind} {quantity(move.speed, 'speed')} to {end}"
-        case MoveTo():
-            return f"move to {quantity(move.depth, 'depth')} in {quantity(move.duration, 'time')}"
-        case LoadTo():
-            return f"load to {quantity(move.force, 'force')} in {quantity(move.duration, 'time')}"
-        case Dwell():
-            return f"hold {move.hold} {quantity(move.duration, 'time')}"
+    said: dict[str, Any] = dict(vars(move))
+    for name, field in cards(type(move)).items():
+        said[name] = quantity(said[name], field.card.measure)
+    if "to" in said:
+        said["to"] = f"{said['to'].word} {quantity(said['to'].value, said['to'].word)}"
+    return dict(_MOVES.values())[type(move)].format(**said)
 
 
 def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
