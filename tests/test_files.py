@@ -148,6 +148,7 @@ def test_tables_of_spreadsheets_are_read_in_their_encodings(tmp_path):
     for text, encoding in (
         ("modulus_ratio,relaxation_time_h\n9,0.1\n", "utf-16"),
         ("\ufeff# soft\n\nmodulus_ratio, relaxation_time\n9, 0.1\n", "utf-8"),
+        ("# soft, 1;2\nmodulus_ratio;relaxation_time_s\n9;0,1\n", "utf-8"),
     ):
         file.write_text(text, encoding)
         assert tuple(read_quantities(file, units).values()) == ((9.0,), (0.1,))

@@ -1,20 +1,12 @@
 """Tables of cases, CSV or workbooks: their headings, and their rows as words."""
 
-import csv
-import re
 from collections.abc import Iterator
 from itertools import repeat
 from pathlib import Path
 
 from viscotack.errors import InputError
-from viscotack.files.text import read_text
+from viscotack.files.text import Line, read_rows
 
-# Of a text as read_text returns it; as a file in memory it would be four times as large.
-_LINE = re.compile(r"[^\n]*\n|[^\n]+")
-_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
-_THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(\.\d{3})+\s*")
-
-Line = tuple[int, list[str]]
 # Reason why an empty row has no answer.
 EMPTY = "empty row"
 
@@ -34,7 +26,7 @@ def read_words(path: Path, *, empty: bool = False) -> tuple[list[str], Iterator[
     -----
     Rows are read when they are needed; one that is wrong is refused then.
     """
-    rows = _of_sheet(path) if path.suffix.lower() == ".xlsx" else _of_text(path)
+    rows = _of_sheet(path) if path.suffix.lower() == ".xlsx" else read_rows(path)
     names = [name.strip() for name in next(rows, (0, []))[1]]
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise InputError(f"{path}: the first row has {', '.join(map(repr, twice))} more than once")
@@ -62,30 +54,6 @@ def _of_sheet(path: Path) -> Iterator[Line]:
     # a sheet may have empty columns that were formatted
     width = max((i + 1 for row in first for i, word in enumerate(row) if word.strip()), default=0)
     return enumerate((row[:width] for row in first), 1)
-
-
-def _of_text(path: Path) -> Iterator[Line]:
-    """Yield the rows of a text in CSV, with their lines."""
-    text = read_text(path)
-    head = text.partition("\n")[0]
-    mark = next((mark for mark in ";\t" if mark in head and "," not in head), ",")
-    reader = csv.reader((found[0] for found in _LINE.finditer(text)), delimiter=mark)
-    try:
-        for row in reader:
-            yield reader.line_num, row if mark == "," else _with_points(path, reader.line_num, row)
-    except csv.Error as error:
-        raise InputError(f"{path}, line {reader.line_num}: {error}") from None
-
-
-def _with_points(path: Path, line: int, row: list[str]) -> list[str]:
-    """Return a row with decimal points in place of decimal commas."""
-    commas = [_DECIMAL_COMMA.fullmatch(word) is not None for word in row]
-    if any(commas) and (doubtful := [word for word in row if _THOUSANDS.fullmatch(word)]):
-        raise InputError(
-            f"{path}, line {line}: {doubtful[0].strip()!r} beside decimal commas may have a point "
-            "or thousands; write it without a point, or save the table as .xlsx"
-        )
-    return [w.replace(",", ".") if comma else w for w, comma in zip(row, commas, strict=True)]
 
 
 def _filled(path: Path, names: list[str], rows: Iterator[Line], empty: bool) -> Iterator[Line]:

@@ -23,7 +23,7 @@ def read_quantities(
     path : path
         The first row has the names of the columns with their units, such as
         ``gap_nm,traction_kPa``; each further row has the numbers of one point. Lines that begin
-        with ``#`` are skipped.
+        with ``#`` are skipped; semicolons and decimal commas are read too.
     units : mapping
         Name of each wanted column, without its unit -> SI unit of the result; "1" for a column of
         pure numbers, whose name may have no unit, and "" for numbers in the unit of the file.
@@ -45,22 +45,27 @@ def read_quantities(
         line.
     """
     path = Path(path)
-    header, rows = read_rows(path)
+    rows = [
+        (line, row)
+        for line, row in read_rows(path)
+        if any(map(str.strip, row)) and not row[0].startswith("#")
+    ]
+    header = [name.strip() for name in rows[0][1]] if rows else []
     places = {name: _place(path, header, name, unit) for name, unit in units.items()}
-    if len(rows) > most:
+    if len(rows) > most + 1:
         raise InputError(
-            f"{path}: at most {most:,} rows below the header are allowed, got {len(rows):,}; "
+            f"{path}: at most {most:,} rows below the header are allowed, got {len(rows) - 1:,}; "
             "remove rows"
         )
     columns: dict[str, list[float]] = {name: [] for name in units}
-    for line, row in rows:
+    for line, row in rows[1:]:
         with placed(f"{path}, line {line}:"):
             if len(row) != len(header):
                 raise InputError(f"{len(row)} entries, but the header has {len(header)}")
             for name, (at, given) in places.items():
                 value, unit = finite(name, row[at], given), units[name]
                 columns[name].append(parse(f"{value!r} {given}", unit) if unit else value)
-    if not rows:
+    if not rows[1:]:
         raise InputError(f"{path}: no rows below the header")
     return {name: tuple(values) for name, values in columns.items()}
 

@@ -5,7 +5,7 @@ import csv
 import io
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from viscotack.errors import InputError
@@ -18,6 +18,12 @@ LARGEST_TEXT = 100_000_000
 # Control characters except line ends and tabs, and those that change the writing direction.
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
+# Of a text as read_text returns it; as a file in memory it would be four times as large.
+_LINE = re.compile(r"[^\n]*\n|[^\n]+")
+_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
+_THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(\.\d{3})+\s*")
+# Number of a line, and the cells of its row.
+Line = tuple[int, list[str]]
 # Byte-order mark -> encoding.
 _MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
@@ -103,10 +109,11 @@ def cell(text: str) -> str:
     return f"'{text}" if text.startswith(_FORMULA) and not is_number(text) else text
 
 
-def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Read the names in the first row of a CSV file, and the rows below with line numbers.
+def read_rows(path: str | os.PathLike[str]) -> Iterator[Line]:
+    """Yield the rows of a CSV file with the numbers of their lines, the first one too.
 
-    Empty lines and lines that begin with ``#`` are skipped.
+    Columns are separated by commas; by semicolons or tabs where the first row has these and no
+    comma, with decimal commas. That row is the first one that does not begin with ``#``.
 
     Raises
     ------
@@ -115,17 +122,26 @@ def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, 
     InputError
         If it is not a text file.
     """
-    reader = csv.reader(read_text(path).splitlines(keepends=True))
+    lines = [found[0] for found in _LINE.finditer(read_text(path))]
+    head = next((line for line in lines if line.strip() and not line.startswith("#")), "")
+    mark = next((mark for mark in ";\t" if mark in head and "," not in head), ",")
+    reader = csv.reader(lines, delimiter=mark)
     try:
-        rows = [
-            (reader.line_num, row)
-            for row in reader
-            if any(map(str.strip, row)) and not row[0].startswith("#")
-        ]
+        for row in reader:
+            yield reader.line_num, row if mark == "," else _with_points(path, reader.line_num, row)
     except csv.Error as error:  # a cell of more than 131,072 characters
         raise InputError(f"{os.fspath(path)}, line {reader.line_num}: {error}") from None
-    header = [name.strip() for name in rows[0][1]] if rows else []
-    return header, rows[1:]
+
+
+def _with_points(path: str | os.PathLike[str], line: int, row: list[str]) -> list[str]:
+    """Return a row with decimal points in place of decimal commas."""
+    commas = [_DECIMAL_COMMA.fullmatch(word) is not None for word in row]
+    if any(commas) and (doubtful := [word for word in row if _THOUSANDS.fullmatch(word)]):
+        raise InputError(
+            f"{os.fspath(path)}, line {line}: {doubtful[0].strip()!r} beside decimal commas may "
+            "have a point or thousands; write it without a point, or save the table as .xlsx"
+        )
+    return [w.replace(",", ".") if comma else w for w, comma in zip(row, commas, strict=True)]
 
 
 def write_table(table: Mapping[str, Any], path: Target) -> None:
