@@ -6,7 +6,7 @@ import viscotack as vt
 from command_line import answered
 from stated import LAW, case_text
 from viscotack.model.problem.case_file import law_from_words
-from viscotack.model.protocol.words import (
+from viscotack.model.protocol_words import (
     PUNCH_UNITS,
     PURE_NUMBERS,
     SPHERE_UNITS,

@@ -23,7 +23,7 @@ from viscotack.model.materials.passport import Passport
 from viscotack.model.problem import Problem
 from viscotack.model.problem.case_file import case_of_tables, passport_of
 from viscotack.model.problem.nouns import known
-from viscotack.model.protocol.moves import Speed, Stiffness
+from viscotack.model.protocol import Speed, Stiffness
 from viscotack.model.tables import Read, Reading, read_as, refuse_named, refuse_unknown
 from viscotack.model.traction import ages
 

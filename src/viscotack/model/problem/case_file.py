@@ -48,9 +48,19 @@ from viscotack.model.problem.problem import (
     Tabor,
 )
 from viscotack.model.problem.rough_case import RoughCase, StatedSurface, hash_of
-from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Move, Retraction, Start
-from viscotack.model.protocol.moves import Speed, Stiffness, check_number_of_moves
-from viscotack.model.protocol.words import (
+from viscotack.model.protocol import (
+    Apart,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Move,
+    Retraction,
+    Speed,
+    Start,
+    Stiffness,
+    check_number_of_moves,
+)
+from viscotack.model.protocol_words import (
     PURE_NUMBERS,
     history_from_file,
     move_from_words,

@@ -20,7 +20,7 @@ from viscotack.errors import InputError
 from viscotack.model.problem.outputs import PLANE, Kind
 from viscotack.model.problem.units import InSI, time_unit
 from viscotack.model.protocol import AtRadius, Units
-from viscotack.model.protocol.words import PUNCH_UNITS
+from viscotack.model.protocol_words import PUNCH_UNITS
 
 # Units of a protocol, in SI and dimensionless; forces are mean stresses.
 SI = PUNCH_UNITS | {"stiffness": "Pa/m"}

@@ -31,8 +31,7 @@ from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.outputs import Kind
 from viscotack.model.problem.plane import PunchScales
 from viscotack.model.problem.revolution import Scales
-from viscotack.model.protocol import Apart, Move, Retraction, Start, Units
-from viscotack.model.protocol.moves import check_moves
+from viscotack.model.protocol import Apart, Move, Retraction, Start, Units, check_moves
 from viscotack.model.traction import LennardJones, Traction, effective_range
 from viscotack.model.traction.growing import in_si, reduced
 from viscotack.units import positive

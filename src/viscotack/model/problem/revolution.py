@@ -28,7 +28,7 @@ from viscotack.model.geometry import Disc, Layer, detail, end, equivalent_radius
 from viscotack.model.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.model.problem.units import InSI, time_unit
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Units, states
-from viscotack.model.protocol.words import SPHERE_UNITS
+from viscotack.model.protocol_words import SPHERE_UNITS
 from viscotack.units import positive
 
 # Largest contact radius over sphere radius. At 0.5 the paraboloid's gap differs by 7 % from the

@@ -10,9 +10,7 @@ import numpy as np
 from viscotack.cards import cards, plausible
 from viscotack.errors import InputError, placed
 from viscotack.files.quantities import read_quantities
-from viscotack.units import parse
-
-from .moves import (
+from viscotack.model.protocol import (
     HOLDS,
     MOST_MOVES,
     Apart,
@@ -27,6 +25,7 @@ from .moves import (
     Retract,
     Start,
 )
+from viscotack.units import parse
 
 # Units expected for a sphere in SI, a punch in SI, and dimensionless numbers.
 SPHERE_UNITS = {"depth": "m", "force": "N", "radius": "m", "speed": "m/s", "time": "s"}
