@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.geometry.panels import hat_areas
 from viscotack.model.materials import Modes
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.testing import check, checks

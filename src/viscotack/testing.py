@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from viscotack.cards import cards, check_carded, with_units
 from viscotack.model.geometry import FlatPunch, Layer, Sphere, detail, equivalent_radius
-from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.geometry.panels import hat_areas
 from viscotack.model.materials import Elastic, StandardSolid
 from viscotack.model.materials.conversion import scaled, slowed
 from viscotack.model.materials.modes import FINEST, reciprocal, voigt

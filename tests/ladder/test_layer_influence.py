@@ -8,9 +8,9 @@ from scipy.special import jv, sici, xlogy
 
 from reference_data import VALUES
 from viscotack.model.geometry import Bonded, Frictionless, Layer, half_space
-from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.geometry.layer import layer_influence
 from viscotack.model.geometry.layer_of_revolution import influence
+from viscotack.model.geometry.panels import hat_areas
 from viscotack.simulate.surface import relaxed_stiffness
 from viscotack.theory.punch import crossover
 

@@ -10,8 +10,8 @@ from dimensionless import ELASTIC, power_law, slope, standard
 from research.twins import plain_sphere
 from solids import standard_solid
 from viscotack.model.geometry.half_space import influence
-from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.geometry.layer import layer_influence
+from viscotack.model.geometry.panels import hat_areas
 from viscotack.model.materials import Modes
 from viscotack.simulate import Settings
 from viscotack.simulate.body import Memory, step

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
 from viscotack.model.geometry import Body
-from viscotack.model.geometry.hats import hat_areas, panel_areas
+from viscotack.model.geometry.panels import hat_areas, panel_areas
 from viscotack.model.traction import Traction, softening
 from viscotack.model.traction.law import energy_and_traction
 

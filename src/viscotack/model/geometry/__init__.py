@@ -1,11 +1,11 @@
 """Rigid indenter shapes, and the bodies under them."""
 
 from .bodies import Base, Body, Bonded, Frictionless, HalfSpace, Layer
-from .measured import MeasuredProfile
 from .shapes import (
     Cone,
     Disc,
     FlatPunch,
+    MeasuredProfile,
     PowerLawProfile,
     Shape,
     Sphere,

@@ -114,7 +114,7 @@ class Body(Protocol):
     def decay_length(self) -> float: ...  # noqa: D102
 
     def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:
-        """Return G[i, j], the displacement at node i under hat j (:mod:`.hats`), for E* = 1.
+        """Return G[i, j], the displacement at node i under hat j (:mod:`.panels`), for E* = 1.
 
         Nodes ascend from 0, in the unit of length of the body. Displacement into the body is
         positive under pressure.

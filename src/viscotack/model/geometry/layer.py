@@ -52,7 +52,7 @@ from scipy.special import xlogy, zeta
 
 from viscotack.errors import InputError
 from viscotack.model.geometry.bodies import Base
-from viscotack.model.geometry.gauss import gauss
+from viscotack.model.geometry.panels import gauss
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).
 _NEAR, _FAR = 1.0, 48.0
@@ -95,7 +95,7 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
 
     >>> import numpy as np
     >>> from viscotack.model.geometry import Frictionless
-    >>> from viscotack.model.geometry.hats import hat_areas
+    >>> from viscotack.model.geometry.panels import hat_areas
     >>> x = 1 - np.linspace(1, 0, 101) ** 2  # crowded at the end
     >>> G = layer_influence(x, 0.1, Frictionless())
     >>> pressure = np.linalg.solve(G, np.ones(101))

@@ -29,9 +29,9 @@ from scipy.special import j0
 
 from viscotack.errors import InputError
 from viscotack.model.geometry.bodies import Base
-from viscotack.model.geometry.gauss import gauss
 from viscotack.model.geometry.half_space import influence as half_space_influence
 from viscotack.model.geometry.layer import own_displacement
+from viscotack.model.geometry.panels import gauss
 
 # Places of the table per thickness, and of how many a value is interpolated.
 _PER_THICKNESS, _AROUND = 8, 10
@@ -75,7 +75,7 @@ def influence(radius: npt.NDArray, thickness: float, base: Base) -> npt.NDArray:
 
     >>> import numpy as np
     >>> from viscotack.model.geometry import Bonded
-    >>> from viscotack.model.geometry.hats import hat_areas
+    >>> from viscotack.model.geometry.panels import hat_areas
     >>> r = 1 - np.linspace(1, 0, 121) ** 3
     >>> G = influence(r, 1.0, Bonded(poisson_ratio=0.3))
     >>> pressure = np.linalg.solve(G, np.ones(121))

@@ -6,8 +6,7 @@ The energy vanishes at infinite gap and is negative in contact.
 docs/traction-laws.md shows how to add a law.
 """
 
-from viscotack.model.traction.dugdale import Dugdale
-from viscotack.model.traction.exponential import Exponential
+from viscotack.model.traction.formulas import Dugdale, Exponential, LennardJones
 from viscotack.model.traction.growing import (
     Eyring,
     GentSchultz,
@@ -19,7 +18,6 @@ from viscotack.model.traction.growing import (
     has_rest,
 )
 from viscotack.model.traction.law import Traction, effective_range, softening
-from viscotack.model.traction.lennard_jones import LennardJones
 from viscotack.model.traction.tabulated import Tabulated
 
 # Word in a file or option -> law. Every constant except work, gap and the reference speed or time

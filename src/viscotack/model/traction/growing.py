@@ -45,8 +45,8 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
+from viscotack.model.traction.formulas import LennardJones
 from viscotack.model.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
-from viscotack.model.traction.lennard_jones import LennardJones
 from viscotack.units import positive
 
 

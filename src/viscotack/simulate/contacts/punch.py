@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Body, Layer
-from viscotack.model.geometry.hats import hat_areas, panel_areas
+from viscotack.model.geometry.panels import hat_areas, panel_areas
 from viscotack.model.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.contacts.contact import Relaxed

@@ -31,7 +31,7 @@ from scipy.optimize import brentq
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Body, HalfSpace, Sphere
-from viscotack.model.geometry.hats import hat_areas, panel_areas
+from viscotack.model.geometry.panels import hat_areas, panel_areas
 from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.model.traction import Traction, effective_range
 from viscotack.simulate.contacts.contact import Relaxed

@@ -36,7 +36,7 @@ import scipy
 
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.model.geometry import Base, Disc, HalfSpace, Layer, Shape
-from viscotack.model.geometry.gauss import gauss
+from viscotack.model.geometry.panels import gauss
 from viscotack.model.protocol import AtForce
 from viscotack.theory._checks import Number, Values, plain, positive
 

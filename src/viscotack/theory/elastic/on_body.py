@@ -28,7 +28,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.model.geometry import Sphere, detail
-from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.geometry.panels import hat_areas
 
 # Nodes of a disc, crowded at its edge; radii per decade, and of how many K and M are interpolated.
 _NODES, _PER_DECADE, _AROUND = 97, 6, 6

@@ -38,7 +38,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.geometry import Base, Bonded, Cone, Layer, PowerLawProfile, Sphere, detail
-from viscotack.model.geometry.gauss import gauss
+from viscotack.model.geometry.panels import gauss
 from viscotack.theory.elastic.profiles import half_space_depth
 
 # Gauss panels in the angle: smallest number, thicknesses per extra panel, points per panel.

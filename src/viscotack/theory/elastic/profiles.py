@@ -29,7 +29,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.geometry import Shape, detail
-from viscotack.model.geometry.gauss import gauss
+from viscotack.model.geometry.panels import gauss
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.elastic.jkr import Point
 

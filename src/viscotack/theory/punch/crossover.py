@@ -43,7 +43,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.geometry import Base, Bonded
-from viscotack.model.geometry.gauss import gauss
+from viscotack.model.geometry.panels import gauss
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory._roots import halved
 
