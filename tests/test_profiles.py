@@ -43,7 +43,7 @@ def test_a_paraboloid_by_its_heights_is_one_everywhere():
 @pytest.mark.parametrize(
     ("points", "words"),
     [
-        ([(0, 0), (1, 1)], "3 to 10,000 rows"),
+        ([(0, 0), (1, 1)], "3 to 10,000 pairs"),
         ([(0.1, 0), (1, 1), (2, 4)], "ascend from 0"),
         ([(0, 0), (1, np.nan), (2, 4)], "finite"),
         ([(0, 1), (1, 4), (2, 0)], "rise at the last row"),

@@ -178,14 +178,37 @@ class Pairs:
     ----------
     units : tuple of str
         SI units of the first and the second number of a pair.
-    symbol, words, example : str
-        As for a `Quantity`.
+    symbol, words, example, advice : str
+        As for a `Quantity`; the advice is on the number of pairs.
+    fewest, most : int
+        Smallest and largest number of pairs.
     """
 
     units: tuple[str, str]
     symbol: str
     words: str
     example: str = ""
+    fewest: int = 1
+    most: int = 10_000
+    advice: str = ""
+
+    def checked(self, name: str, value: Any) -> tuple[tuple[float, float], ...]:
+        """Convert pairs to floats and count them; InputError if they are not finite numbers."""
+        try:
+            first, second = self.units
+            pairs = tuple((finite(name, x, first), finite(name, y, second)) for x, y in value)
+        except (TypeError, ValueError) as error:
+            if isinstance(error, InputError):
+                raise
+            raise InputError(
+                f"{name} must be pairs of numbers, {self.words}, got {value!r:.80}"
+            ) from None
+        if not self.fewest <= len(pairs) <= self.most:
+            cure = f"; {self.advice}" if self.advice else ""
+            raise InputError(
+                f"{name} must be {self.fewest} to {self.most:,} pairs, got {len(pairs):,}{cure}"
+            )
+        return pairs
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         """Read the pairs of a table."""
@@ -303,6 +326,8 @@ def conform(noun: Any) -> None:
             )
         if value is not None or not field.optional:
             object.__setattr__(noun, field.name, field.card.checked(field.name, value))
+    for name, field in cards(type(noun), Pairs).items():
+        object.__setattr__(noun, name, field.card.checked(name, getattr(noun, name)))
 
 
 class Checked:

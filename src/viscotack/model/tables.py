@@ -89,17 +89,18 @@ class Reading:
     def pairs(self, card: Pairs, value: Any) -> tuple[tuple[float, float], ...]:
         """Return the pairs of numbers that a card describes."""
         units = ("1", "1") if self.pure else card.units
-        if not isinstance(value, list | tuple) or any(
-            not isinstance(pair, list | tuple) or len(pair) != 2 for pair in value
-        ):
+        try:
+            return tuple(
+                (self.parsed(x, units[0], card.example), self.parsed(y, units[1], card.example))
+                for x, y in value
+            )
+        except (TypeError, ValueError) as error:
+            if isinstance(error, InputError):
+                raise
             raise InputError(
                 f"must be a list of pairs, {card.words}, got {value!r:.60}; write for example "
                 f"{card.example}"
-            )
-        return tuple(
-            (self.parsed(x, units[0], card.example), self.parsed(y, units[1], card.example))
-            for x, y in value
-        )
+            ) from None
 
     def key(self, table: str, key: str, card: Quantity, value: Any) -> float:
         """Return the number of a key that is no field of the table's class."""

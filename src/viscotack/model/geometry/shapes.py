@@ -27,8 +27,6 @@ from viscotack.errors import InputError
 
 # Decades of radius [m] over which a shape of revolution is examined.
 _DECADES = (-30.0, 30.0)
-# Limits of the number of rows: fewer define no shape, more cannot be resolved by a mesh.
-_FEWEST, _MOST = 3, 10_000
 # Finest detail considered, as a fraction of the radius to which the profile is known.
 _FINEST = 1 / 60
 
@@ -532,23 +530,20 @@ class MeasuredProfile:
             "r, z",
             "distance from the axis and height of the profile there",
             example='[["0 um", "0 um"], ["50 um", "1 um"], ["100 um", "4 um"]]',
+            fewest=3,
         ),
     ]
 
     def __post_init__(self) -> None:
         conform(self)
-        if not _FEWEST <= len(self.points) <= _MOST:
-            raise InputError(
-                f"points must have {_FEWEST} to {_MOST:,} rows, got {len(self.points):,}"
-            )
-        try:
-            points = tuple((float(r), float(z)) for r, z in self.points)
-        except (TypeError, ValueError):
-            raise InputError("points must be pairs of numbers, a radius and a height [m]") from None
-        _check(points)
+        points = self.points
+        r, z = np.array(points).T
+        if r[0] != 0 or np.any(np.diff(r) <= 0):
+            raise InputError(f"radii must ascend from 0, the axis, got {r[0]:g} m to {r[-1]:g} m")
+        if not z[-1] > min(z):
+            raise InputError("the height must rise at the last row; add rows farther out")
         lowest = min(z for _, z in points)
         object.__setattr__(self, "points", tuple((r, z - lowest) for r, z in points))
-        r, z = np.array(self.points).T
         if not self._fit > 0:
             raise InputError(
                 "the profile must rise outwards as a whole, and the sphere closest to it is "
@@ -617,14 +612,3 @@ class MeasuredProfile:
         """Height at the last row, and exponent of the power law beyond it."""
         height = self.points[-1][1]
         return height, float(2 * self.end**2 * self._inner(self.end**2, 1)) / height
-
-
-def _check(points: tuple[tuple[float, float], ...]) -> None:
-    """Refuse rows that are no profile."""
-    r, z = np.array(points).T
-    if not (np.isfinite(r).all() and np.isfinite(z).all()):
-        raise InputError("radii and heights must be finite numbers")
-    if r[0] != 0 or np.any(np.diff(r) <= 0):
-        raise InputError(f"radii must ascend from 0, the axis, got {r[0]:g} m to {r[-1]:g} m")
-    if not z[-1] > min(z):
-        raise InputError("the height must rise at the last row; add rows farther out")

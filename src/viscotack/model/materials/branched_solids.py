@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,8 +21,6 @@ from viscotack.model.materials.constants import (
 from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import Modes, compressed, maxwell, reciprocal, voigt
 from viscotack.units import positive
-
-_MOST_BRANCHES = 10_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,13 +193,24 @@ class Prony(Solid):
             "E_i, tau_i",
             "modulus and relaxation time of each branch",
             example='[["5 MPa", "1 ms"], ["4 MPa", "1 s"]]',
+            advice="use Elastic for a solid without any; ten per decade of time suffice",
         ),
     ]
     poisson_ratio: PoissonRatio
 
     def __post_init__(self):
         conform(self)
-        constants.store(self, branches=_sorted_branches(self.branches))
+        pairs = sorted(self.branches, key=lambda pair: pair[1])
+        for modulus, time in pairs:
+            positive("a modulus of branches", modulus, "Pa")
+            positive("a time of branches", time, "s")
+        for (_, time), (_, following) in pairwise(pairs):
+            if following < time * (1 + 1e-9):
+                raise InputError(
+                    "the times of branches must differ by more than 1e-9 (relative), got "
+                    f"{time!r} s and {following!r} s; merge the two by adding their moduli"
+                )
+        constants.store(self, branches=tuple(pairs))
 
     @property
     def glassy_modulus(self) -> float:
@@ -246,31 +255,3 @@ class Prony(Solid):
         """Return the compliances [1/Pa] and retardation rates [1/s], rates ascending."""
         E, tau = np.array(self.branches[::-1]).T
         return reciprocal(self.rubbery_modulus, E, 1 / tau)
-
-
-def _sorted_branches(given: Any) -> tuple[tuple[float, float], ...]:
-    """Return checked branches sorted by time."""
-    pairs: list[tuple[float, float]] = []
-    try:
-        for modulus, time in given:
-            modulus = positive("a modulus of branches", modulus, "Pa")
-            pairs.append((modulus, positive("a time of branches", time, "s")))
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(
-            f"branches must be pairs of numbers, modulus [Pa] and time [s], got {given!r:.80}"
-        ) from None
-    if not 0 < len(pairs) <= _MOST_BRANCHES:
-        raise InputError(
-            f"branches must be 1 to {_MOST_BRANCHES:,} pairs, got {len(pairs):,}; use Elastic for "
-            "a solid without any, and ten per decade of time are sufficient for any solid"
-        )
-    pairs.sort(key=lambda pair: pair[1])
-    for (_, time), (_, following) in pairwise(pairs):
-        if following < time * (1 + 1e-9):
-            raise InputError(
-                "the times of branches must differ by more than 1e-9 (relative), got "
-                f"{time!r} s and {following!r} s; merge the two by adding their moduli"
-            )
-    return tuple(pairs)
