@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from viscotack.cards import Pairs, conform
 from viscotack.errors import InputError
-from viscotack.model.materials import constants
 from viscotack.model.materials.constants import (
     GlassyModulus,
     PoissonRatio,
@@ -210,7 +209,7 @@ class Prony(Solid):
                     "the times of branches must differ by more than 1e-9 (relative), got "
                     f"{time!r} s and {following!r} s; merge the two by adding their moduli"
                 )
-        constants.store(self, branches=tuple(pairs))
+        object.__setattr__(self, "branches", tuple(pairs))
 
     @property
     def glassy_modulus(self) -> float:

@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 from viscotack.cards import Quantity, card_of
 from viscotack.errors import InputError
-from viscotack.units import positive
 
 RubberyModulus = Annotated[
     float,
@@ -86,31 +85,6 @@ def temperatures(name: str, values: npt.ArrayLike) -> npt.NDArray[np.float64]:
             "give Celsius + 273.15"
         )
     return array
-
-
-def stiffens(material: Any) -> None:
-    """Raise an error if the short-time modulus is below the long-time one."""
-    glassy, rubbery = material.glassy_modulus, material.rubbery_modulus
-    if glassy < rubbery:
-        raise InputError(
-            "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
-            f"{glassy:g} Pa < {rubbery:g} Pa; check whether they are interchanged"
-        )
-
-
-def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:
-    """Validate the time window [s] and tolerance of a set of modes; return them as floats."""
-    shortest = positive("shortest", shortest, "s")
-    longest = positive("longest", longest, "s")
-    tolerance = positive("tolerance", tolerance, "1/rubbery_modulus")
-    if longest < shortest:
-        raise InputError(f"longest must not be below shortest, got {longest:g} s < {shortest:g} s")
-    if tolerance >= 1:
-        raise InputError(
-            "tolerance is relative to the rubbery compliance and must be below 1, got "
-            f"{tolerance:g}"
-        )
-    return shortest, longest, tolerance
 
 
 def nonnegative(name: str, values: npt.ArrayLike, unit: str) -> npt.NDArray[np.float64]:

@@ -7,8 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import conform
-from viscotack.model.materials import constants
+from viscotack.errors import InputError
 from viscotack.model.materials.modes import Modes
+from viscotack.units import positive
 
 Real = float | npt.NDArray[np.float64]
 Complex = complex | npt.NDArray[np.complex128]
@@ -108,7 +109,12 @@ class Solid:
 
     def __post_init__(self) -> None:
         conform(self)
-        constants.stiffens(self)
+        glassy, rubbery = self.glassy_modulus, self.rubbery_modulus
+        if glassy < rubbery:
+            raise InputError(
+                "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
+                f"{glassy:g} Pa < {rubbery:g} Pa; check whether they are interchanged"
+            )
 
     @property
     def modulus_ratio(self) -> float:
@@ -135,10 +141,20 @@ class Solid:
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`."""
-        window = constants.window(shortest=shortest, longest=longest, tolerance=tolerance)
+        shortest, longest = positive("shortest", shortest, "s"), positive("longest", longest, "s")
+        tolerance = positive("tolerance", tolerance, "1/rubbery_modulus")
+        if longest < shortest:
+            raise InputError(
+                f"longest must not be below shortest, got {longest:g} s < {shortest:g} s"
+            )
+        if tolerance >= 1:
+            raise InputError(
+                "tolerance is relative to the rubbery compliance and must be below 1, got "
+                f"{tolerance:g}"
+            )
         if self.modulus_ratio == 1:
             return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
-        return self._modes(*window)
+        return self._modes(shortest, longest, tolerance)
 
     def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         raise NotImplementedError

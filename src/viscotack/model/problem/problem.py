@@ -147,24 +147,24 @@ class Problem(_OfKind):
 
     def __post_init__(self) -> None:
         _check_parts(self)
-        _check_poisson_ratio(self.body, self.material)
-        with np.errstate(over="ignore", under="ignore"):
-            self._check_digits()
-            self._kind.check(self)
-
-    def _check_digits(self) -> None:
-        """Raise an InputError if a unit of the dimensionless problem overflows or underflows."""
-        try:
-            lost = [name for name, unit in vars(self._scales).items() if not 0 < unit < np.inf]
-        except ArithmeticError:
-            lost = ["length"]
-        if lost:
+        own, nu = getattr(self.body, "poisson_ratio", None), self.material.poisson_ratio
+        if own is not None and own != nu:
             raise InputError(
-                f"the unit of {', '.join(lost)} of this problem overflows or underflows: "
-                f"{self.geometry}, {self.traction} and a contact modulus of "
-                f"{self.material.contact_modulus:.4g} Pa have incompatible magnitudes; check "
-                "their units"
+                f"a bonded layer must have the Poisson ratio of its material, {nu:g}, got {own:g}"
             )
+        with np.errstate(over="ignore", under="ignore"):
+            try:
+                lost = [name for name, unit in vars(self._scales).items() if not 0 < unit < np.inf]
+            except ArithmeticError:
+                lost = ["length"]
+            if lost:
+                raise InputError(
+                    f"the unit of {', '.join(lost)} of this problem overflows or underflows: "
+                    f"{self.geometry}, {self.traction} and a contact modulus of "
+                    f"{self.material.contact_modulus:.4g} Pa have incompatible magnitudes; check "
+                    "their units"
+                )
+            self._kind.check(self)
 
     @property
     def tabor(self) -> float:
@@ -393,13 +393,10 @@ class Groups(_OfKind):
         E = positive("contact_modulus", contact_modulus, "Pa")
         if (equilibrium_gap is None) == (work_of_adhesion is None):
             raise InputError("give exactly one of equilibrium_gap [m] and work_of_adhesion [J/m^2]")
-        given = {
-            "equilibrium_gap": (equilibrium_gap, "m"),
-            "work_of_adhesion": (work_of_adhesion, "J/m^2"),
-        }
-        scale = {
-            name: positive(name, x, unit) for name, (x, unit) in given.items() if x is not None
-        }
+        if equilibrium_gap is None:
+            scale = {"work_of_adhesion": positive("work_of_adhesion", work_of_adhesion, "J/m^2")}
+        else:
+            scale = {"equilibrium_gap": positive("equilibrium_gap", equilibrium_gap, "m")}
         T = positive("time_unit", time_unit, "s")
         nu = checked_poisson_ratio(poisson_ratio)
         unit = self._kind.si_units(self, E, radius, **scale)
@@ -423,28 +420,20 @@ _KINDS: Mapping[str, Any] = {"revolution": revolution, "plane": plane}
 
 
 # What a part of a problem must have, and an example of one.
-_PARTS: Mapping[str, tuple[tuple[str, ...], str]] = {
-    "material": (
-        ("retardation_modes", "reduced"),
-        "Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)",
-    ),
-    "traction": (
-        ("stiffness", "reduced"),
-        "LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)",
-    ),
-    "geometry": (("symmetry", "reduced"), "Sphere(radius=5e-3)"),
-    "body": (("influence", "symmetries"), "Layer(thickness=1e-4)"),
-    "protocol": (("start", "moves"), "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
+_PARTS = {
+    "material": ("retardation_modes", "Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)"),
+    "traction": ("energy_beyond", "LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)"),
+    "geometry": ("symmetry", "Sphere(radius=5e-3)"),
+    "body": ("symmetries", "Layer(thickness=1e-4)"),
+    "protocol": ("moves", "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
 }
 
 
 def _check_parts(problem: Any) -> None:
     """Raise an error for a part of another kind, or a body that does not support the shape."""
-    for name, (members, example) in _PARTS.items():
-        part = getattr(problem, name, None)
-        if name == "protocol" and isinstance(problem, Groups):
-            continue
-        if isinstance(part, type) or not all(hasattr(part, member) for member in members):
+    for name, part in vars(problem).items():
+        member, example = _PARTS.get(name, ("", ""))
+        if member and (isinstance(part, type) or not hasattr(part, member)):
             given = part.__name__ if isinstance(part, type) else type(part).__name__
             raise InputError(f"{name} cannot be a {given}; try {example}", field=name)
     shape, body = problem.geometry, problem.body
@@ -460,15 +449,6 @@ def _check_parts(problem: Any) -> None:
             if plain
             else f"the body {body} is for plane strain, not for a {shape.word}; omit it, or use a "
             "FlatPunch"
-        )
-
-
-def _check_poisson_ratio(body: Any, material: Any) -> None:
-    """Raise an error if body and material have different Poisson ratios."""
-    own, nu = getattr(body, "poisson_ratio", None), material.poisson_ratio
-    if own is not None and own != nu:
-        raise InputError(
-            f"a bonded layer must have the Poisson ratio of its material, {nu:g}, got {own:g}"
         )
 
 
