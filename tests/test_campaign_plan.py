@@ -7,7 +7,7 @@ from viscotack.app.operations.options import Contact
 from viscotack.app.operations.request import Caller
 from viscotack.app.operations.statement import statement
 from viscotack.campaign import CaseSettings, read_plan, space_filling
-from viscotack.campaign.design import grid
+from viscotack.campaign.plan import grid
 from viscotack.model.problem.rows import KINDS
 from viscotack.simulate import has_start
 

@@ -7,22 +7,18 @@ if TYPE_CHECKING:
     from viscotack.model.problem.inputs import Input, inputs_of
 
     from .case import CaseSettings, measure
-    from .cluster import Dask
-    from .exporting import export
     from .plan import Case, Plan, every_combination, read_plan, shard_of, space_filling
-    from .running import CannotRun, Progress, run
-    from .store import FolderInUse, Store, merge
+    from .running import CannotRun, Dask, Progress, run
+    from .store import FolderInUse, Store, export, merge
 
 # Imported when they are asked for: predictions need the columns of cases only, also where there
 # are no processes and no SQLite.
 _HOMES = {
     "viscotack.model.problem.inputs": ("Input", "inputs_of"),
     ".case": ("CaseSettings", "measure"),
-    ".cluster": ("Dask",),
-    ".exporting": ("export",),
     ".plan": ("Case", "Plan", "every_combination", "read_plan", "shard_of", "space_filling"),
-    ".running": ("CannotRun", "Progress", "run"),
-    ".store": ("FolderInUse", "Store", "merge"),
+    ".running": ("CannotRun", "Dask", "Progress", "run"),
+    ".store": ("FolderInUse", "Store", "export", "merge"),
 }
 __all__ = [
     "CannotRun",
