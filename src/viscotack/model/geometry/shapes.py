@@ -107,7 +107,7 @@ def effective_sphere(first: Sphere, second: Sphere) -> Sphere:
     -------
     Sphere
         The gap between the two is its gap to a plane. For two soft spheres the material is
-        :func:`viscotack.model.materials.two_bodies.effective_solid`.
+        :func:`viscotack.model.materials.conversion.effective_solid`.
 
     Examples
     --------

@@ -1,6 +1,7 @@
 """Linear viscoelastic solids, their exponential modes, temperature shifts and passports."""
 
 from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
+from viscotack.model.materials.conversion import effective_solid
 from viscotack.model.materials.fractional import FractionalZener
 from viscotack.model.materials.library import published
 from viscotack.model.materials.material import Material
@@ -9,7 +10,6 @@ from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport, write_passport
 from viscotack.model.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.model.materials.two_bodies import effective_solid
 
 __all__ = [
     "WLF",

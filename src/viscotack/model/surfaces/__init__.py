@@ -1,7 +1,6 @@
 """Surfaces as maps of heights: from files, generated, and their statistics."""
 
-from .generated import bumps, pillars, self_affine, sphere
-from .heights import HeightMap, Roughness, roughness
+from .heights import HeightMap, Roughness, bumps, pillars, roughness, self_affine, sphere
 from .map_file import read_map
 
 __all__ = [
