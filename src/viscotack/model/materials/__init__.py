@@ -11,7 +11,21 @@ from viscotack.model.materials.passport_file import read_passport, write_passpor
 from viscotack.model.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 
+# Word in a file -> class.
+MODELS = {
+    kind.word: kind
+    for kind in (
+        Elastic,
+        StandardSolid,
+        Prony,
+        RetardationPowerLaw,
+        RelaxationPowerLaw,
+        FractionalZener,
+    )
+}
+
 __all__ = [
+    "MODELS",
     "WLF",
     "Arrhenius",
     "Elastic",

@@ -165,3 +165,21 @@ class Solid:
         glassy = self.glassy_modulus / self.rubbery_modulus
         units = {"rubbery_modulus": 1.0, "tau0": 1.0, "poisson_ratio": 0.0}
         return replace(solid, glassy_modulus=glassy, **units)
+
+
+def word_of(material: Material) -> str:
+    """Return the word of a material's model in files.
+
+    Examples
+    --------
+    >>> from viscotack import Elastic
+    >>> word_of(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
+    'elastic'
+    """
+    word = getattr(material, "word", None)
+    if word is None:
+        raise InputError(
+            f"{type(material).__name__} has no word in files; define "
+            'word: ClassVar[str] = "..." in the class, different from those of other materials'
+        )
+    return word

@@ -15,6 +15,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.model.materials.constants import temperatures
 from viscotack.model.materials.conversion import PronyForm, prony_form, slowed
+from viscotack.model.materials.material import word_of
 from viscotack.model.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
 # Beginning of the sentence of a fit on a liquid.
@@ -263,8 +264,6 @@ class Passport:
         InputError
             If the range is unknown; as :func:`.prony_form`.
         """
-        from viscotack.model.materials.words import word_of
-
         bounds, solid = frequencies or self.frequencies, self.material
         if bounds is None and word_of(solid) in ("prony", "sls"):
             bounds = 1e-3 / solid.time_unit, 1e3 / solid.time_unit

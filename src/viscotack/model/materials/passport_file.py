@@ -6,6 +6,7 @@ information.
 
 import os
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +16,9 @@ from viscotack.cards import Pairs, cards, with_units
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import Target, write_whole
-from viscotack.model.materials.material import Material
+from viscotack.model.materials.material import Material, word_of
 from viscotack.model.materials.passport import Evidence, Origin, Passport
 from viscotack.model.materials.shift import LAWS, FittedShift, Shift, TabulatedShift
-from viscotack.model.materials.words import MODELS, word_of
 from viscotack.model.tables import OWN, Reading, read_as, stated
 from viscotack.units import parse, readable
 
@@ -49,7 +49,8 @@ def write_passport(passport: Passport, path: Target) -> None:
 
     Examples
     --------
-    >>> from pathlib import Path
+    >>> from dataclasses import replace
+    from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from viscotack.model.materials.library import published
     >>> with TemporaryDirectory() as folder:
@@ -144,7 +145,8 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
 
     Examples
     --------
-    >>> from pathlib import Path
+    >>> from dataclasses import replace
+    from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from viscotack.model.materials.library import published
     >>> with TemporaryDirectory() as folder:
@@ -166,8 +168,10 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
             "use a newer viscotack"
         )
     own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
+    reading = Reading("the passport", bare=True)
+    nouns = replace(reading.nouns, materials={**reading.nouns.materials, **own})
     try:
-        return _passport(tables, {**MODELS, **own}, Reading("the passport", bare=True))
+        return _passport(tables, replace(reading, nouns=nouns))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         words = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error
         raise InputError(
@@ -176,7 +180,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
         ) from None
 
 
-def _passport(tables: Mapping[str, Any], models: Mapping[str, Any], reading: Reading) -> Passport:
+def _passport(tables: Mapping[str, Any], reading: Reading) -> Passport:
     for name in tables:
         if name not in ("passport", "name", *_TABLES):
             raise InputError(f"unknown table [{name}]; allowed tables: {', '.join(_TABLES)}")
@@ -196,7 +200,7 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any], reading: Rea
     reference = temperature.get("reference")
     return Passport(
         name=str(tables.get("name", "")),
-        material=_material(tables.get("material"), models, reading),
+        material=_material(tables.get("material"), reading),
         temperature=None if reference is None else parse(reference, "K"),
         shift=_shift(temperature, "temperature", reading) if "law" in temperature else None,
         fitted_shift=fitted,
@@ -209,14 +213,14 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any], reading: Rea
             if "evidence" in tables
             else None
         ),
-        allowed=tuple(_material(table, models, reading) for table in tables.get("allowed", ())),
+        allowed=tuple(_material(table, reading) for table in tables.get("allowed", ())),
     )
 
 
-def _material(given: Any, models: Mapping[str, Any], reading: Reading) -> Material:
-    """Return the material of a table [material]; its model must be one of the given ones."""
+def _material(given: Any, reading: Reading) -> Material:
+    """Return the material of a table [material]."""
     table = reading.given(given, "material")
-    kind = reading.choice(table, "material", "model", models, OWN)
+    kind = reading.choice(table, "material", "model", reading.nouns.materials, OWN)
     del table["model"]
     return read_as(kind, table, reading, "material")
 

@@ -33,9 +33,9 @@ from viscotack.model.materials import Elastic, Material, Prony
 from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.materials.conversion import scaled
 from viscotack.model.materials.library import MATERIALS, published
+from viscotack.model.materials.material import word_of
 from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_file import read_passport
-from viscotack.model.materials.words import word_of
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.nouns import known
 from viscotack.model.problem.problem import (

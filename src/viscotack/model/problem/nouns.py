@@ -17,8 +17,7 @@ from viscotack.cards import check_carded
 from viscotack.errors import InputError
 from viscotack.files.text import read_bytes
 from viscotack.model.geometry import BODIES, SHAPES, Body, Shape
-from viscotack.model.materials import Material
-from viscotack.model.materials.words import MODELS
+from viscotack.model.materials import MODELS, Material
 from viscotack.model.traction import LAWS, Traction
 
 _PROTOCOLS = {"laws": Traction, "materials": Material, "shapes": Shape, "bodies": Body}

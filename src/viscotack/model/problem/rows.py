@@ -22,10 +22,9 @@ from typing import Any
 from viscotack.cards import Quantity, card_of, cards, plausible, unusual
 from viscotack.errors import InputError, placed
 from viscotack.model.geometry import BODIES, SHAPES, FlatPunch, Layer
-from viscotack.model.materials import RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import MODELS, RetardationPowerLaw, StandardSolid
 from viscotack.model.materials.constants import ModulusRatio
 from viscotack.model.materials.random_solids import LAST, random_solid
-from viscotack.model.materials.words import MODELS
 from viscotack.model.problem import plane, revolution
 from viscotack.model.problem.case_file import STARTS, GroupsTable, PassportTable, ProtocolTable
 from viscotack.model.problem.inputs import Input, changed, check_paths, inputs_of

@@ -12,8 +12,8 @@ from viscotack.app.operations.request import Caller, Request
 from viscotack.cards import with_units
 from viscotack.errors import InputError
 from viscotack.model.materials.library import MATERIALS, published
+from viscotack.model.materials.material import word_of
 from viscotack.model.materials.passport_file import in_words
-from viscotack.model.materials.words import word_of
 
 if TYPE_CHECKING:
     from viscotack.model.geometry import HalfSpace, Layer
