@@ -1,4 +1,4 @@
-r"""Names and units of the outputs of each kind of problem.
+r"""Names and units of the outputs of each kind of problem, and units of its inputs.
 
 A :class:`viscotack.Result` is the same for every indenter: force, depth, contact edge. Summaries,
 tables and figures use the specific quantities: the pull-off force of a sphere [1.5 pi R
@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.model.materials import Elastic
+from viscotack.model.traction import has_rest
 
 
 @dataclass(frozen=True)
@@ -214,3 +216,40 @@ PLANE = Kind(
     # sigma_0 h_0 over Delta-gamma_0
     energy_factor=lambda groups: groups.traction.strength,
 )
+
+
+@dataclass(frozen=True)
+class InSI:
+    """SI values of the units of dimensionless groups.
+
+    Attributes
+    ----------
+    length : float
+        Unit of gaps and depths, h_0 [m].
+    work : float
+        Unit of work per area, Delta-gamma_0 [J/m^2].
+    force : float
+        Unit of the forces [N] of a protocol; for a punch, unit of its stresses [Pa].
+    contact_radius : float
+        Unit of the contact radii of a protocol [m].
+    along, height : float
+        Units of distances along the surface, and of heights of a shape [m].
+    """
+
+    length: float
+    work: float
+    force: float
+    contact_radius: float
+    along: float
+    height: float
+
+
+def time_unit(material: Any, traction: Any) -> float:
+    """Return the unit of dimensionless times [s]: the material's.
+
+    An elastic solid has none; where the traction law grows or ages, its own time is the only one
+    there is: that in which a gap opens by h_0 at its reference speed, or its reference time.
+    """
+    if isinstance(material, Elastic) and has_rest(traction):
+        return traction.own_time
+    return material.time_unit

@@ -17,8 +17,7 @@ import numpy as np
 
 from viscotack.cards import Quantity
 from viscotack.errors import InputError
-from viscotack.model.problem.outputs import PLANE, Kind
-from viscotack.model.problem.units import InSI, time_unit
+from viscotack.model.problem.outputs import PLANE, InSI, Kind, time_unit
 from viscotack.model.protocol import AtRadius, Units
 from viscotack.model.protocol_words import PUNCH_UNITS
 

@@ -25,8 +25,7 @@ import scipy
 
 from viscotack.errors import InputError
 from viscotack.model.geometry import Disc, Layer, detail, end, equivalent_radius
-from viscotack.model.problem.outputs import DETAILED, REVOLUTION, Kind
-from viscotack.model.problem.units import InSI, time_unit
+from viscotack.model.problem.outputs import DETAILED, REVOLUTION, InSI, Kind, time_unit
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Units, states
 from viscotack.model.protocol_words import SPHERE_UNITS
 from viscotack.units import positive

@@ -30,8 +30,8 @@ from viscotack.files.toml import read_toml
 from viscotack.model.geometry import HalfSpace, Layer
 from viscotack.model.problem import case_file
 from viscotack.model.problem.nouns import known
+from viscotack.model.problem.outputs import time_unit
 from viscotack.model.problem.rough_case import RoughCase
-from viscotack.model.problem.units import time_unit
 from viscotack.model.protocol import Approach, AtRadius, Retract, Retraction, Units
 from viscotack.model.surfaces import HeightMap, Roughness, roughness
 from viscotack.model.surfaces.heights import rms_curvature

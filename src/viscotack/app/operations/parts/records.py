@@ -5,7 +5,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from viscotack.model.materials.words import word_of
+from viscotack.model.materials.material import word_of
 from viscotack.units import readable
 
 from .record_words import estimates, read, rows_of
