@@ -66,10 +66,22 @@ def creep_spectrum(number: float, modulus_ratio: float) -> tuple[Array, Array]:
     if not 0 <= number <= LAST or number != int(number):
         raise InputError(f"the number of a random solid is whole, 0 to {LAST:,}; got {number:g}")
     random = np.random.Generator(np.random.PCG64(int(number)))
+    weights, times = np.ones(1), np.ones(1)
     if number >= STRETCHED:
         weights, times = _stretched(random)
     else:
-        weights, times = _of_mixture(random, modulus_ratio)
+        # of a family that is drawn as well
+        ends = np.cumsum([share for share, _ in _FAMILIES])
+        place = min(int(np.searchsorted(ends, random.random(), side="right")), len(_FAMILIES) - 1)
+        family, by_logarithm = _FAMILIES[place][1], random.random() < 0.5
+        if family == "arms":
+            weights, times = _arms(random)
+        elif family != "standard":
+            weights, times = _smooth(_DENSITIES[family](random))
+        if by_logarithm and family != "standard":
+            # the logarithm of the creep climbs from k to 1 in these shares
+            climbed = modulus_ratio ** (1 - np.cumsum(weights / weights.sum()))
+            weights = np.diff(climbed, prepend=modulus_ratio)
     kept = weights > _LEAST * weights.max()
     weights, times = _rounded(weights[kept] / weights[kept].sum()), _rounded(times[kept])
     return weights, times
@@ -92,27 +104,6 @@ def random_solid(number: float, modulus_ratio: float) -> Prony:
     kept = _LEAST * E.max() < E
     branches = tuple(zip(_rounded(E[kept]), _rounded(tau[kept]), strict=True))
     return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
-
-
-def _of_mixture(random: np.random.Generator, k: float) -> tuple[Array, Array]:
-    """Return weights and times of a solid of a family that is drawn as well."""
-    ends = np.cumsum([share for share, _ in _FAMILIES])
-    place = min(int(np.searchsorted(ends, random.random(), side="right")), len(_FAMILIES) - 1)
-    family = _FAMILIES[place][1]
-    by_logarithm = random.random() < 0.5
-    if family == "standard":
-        return np.ones(1), np.ones(1)
-    if family == "arms":
-        shares, times = _arms(random)
-    else:
-        shares, times = _smooth(_DENSITIES[family](random))
-    return (_climbing(shares, k) if by_logarithm else shares), times
-
-
-def _climbing(shares: Array, k: float) -> Array:
-    """Return weights by which the logarithm of the creep climbs from k to 1 in these shares."""
-    climbed = k ** (1 - np.cumsum(shares / shares.sum()))
-    return np.diff(climbed, prepend=k)
 
 
 def _arms(random: np.random.Generator) -> tuple[Array, Array]:
@@ -138,11 +129,6 @@ def _bumps(random: np.random.Generator) -> Callable[[Array], Array]:
     return density
 
 
-def _fractional(random: np.random.Generator) -> Callable[[Array], Array]:
-    """Return the spectrum of a fractional element (Cole and Cole)."""
-    return _negami(0.2 + 0.75 * random.random(), 1.0)
-
-
 def _skewed(random: np.random.Generator) -> Callable[[Array], Array]:
     """Return the spectrum of a fractional element of two orders, to the one side or the other."""
     order = 0.25 + 0.7 * random.random()
@@ -164,7 +150,8 @@ def _negami(order: float, second: float) -> Callable[[Array], Array]:
 
 _DENSITIES: dict[str, Callable[[np.random.Generator], Callable[[Array], Array]]] = {
     "bumps": _bumps,
-    "fractional": _fractional,
+    # a fractional element of one order (Cole and Cole)
+    "fractional": lambda random: _negami(0.2 + 0.75 * random.random(), 1.0),
     "skewed": _skewed,
 }
 

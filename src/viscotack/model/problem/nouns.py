@@ -112,19 +112,22 @@ def _defined(path: Path, content: str) -> tuple[Any, ...]:
     except (Exception, SystemExit) as error:
         del sys.modules[name]
         raise InputError(f"{path} cannot be read: {type(error).__name__}: {error}") from error
-    found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))
+    found = tuple(
+        thing
+        for thing in vars(module).values()
+        if is_dataclass(thing)
+        and (
+            thing.__module__ == name and hasattr(thing, "word")
+            if isinstance(thing, type)
+            else hasattr(thing, "function") and hasattr(thing, "words")
+        )
+    )
     if not found:
         raise InputError(
             f"{path} defines no law, material, shape, body or observable; docs/own.md shows an "
             "example"
         )
     return found
-
-
-def _is_own(thing: Any, module: str) -> bool:
-    if isinstance(thing, type):
-        return thing.__module__ == module and hasattr(thing, "word") and is_dataclass(thing)
-    return is_dataclass(thing) and hasattr(thing, "function") and hasattr(thing, "words")
 
 
 def room_of(noun: Any) -> str:

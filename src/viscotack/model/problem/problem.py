@@ -303,7 +303,36 @@ class Groups(_OfKind):
 
     def __post_init__(self) -> None:
         _check_parts(self)
-        _check_reduced(self)
+        plain = self.in_plane_strain
+        if (self.tabor is None) != plain or (self.cohesion is None) == plain:
+            needs = (
+                "cohesion, sigma_0/E_0*, and no Tabor number"
+                if plain
+                else "Tabor number and no cohesion"
+            )
+            raise InputError(
+                f"a {self.geometry.word} needs a {needs}: give for example "
+                f"{'cohesion=0.05' if plain else 'tabor=3.24'}, got cohesion={self.cohesion} and "
+                f"tabor={self.tabor}",
+                field="cohesion" if plain else "tabor",
+            )
+        if self.material.rubbery_modulus != 1 or self.material.poisson_ratio != 0:
+            raise InputError(
+                "the material of dimensionless groups must have a rubbery modulus of 1 and a "
+                f"Poisson ratio of 0, got {self.material}; use material.reduced()"
+            )
+        if self.traction.work_of_adhesion != 1 or self.traction.equilibrium_gap != 1:
+            raise InputError(
+                f"the traction law of dimensionless groups must be reduced, got {self.traction}; "
+                "use traction.reduced()"
+            )
+        if not isinstance(self.start, Start | Apart):
+            raise InputError(
+                f"start must be AtDepth, AtForce, AtRadius or Apart, got {self.start!r}"
+            )
+        object.__setattr__(self, "moves", tuple(self.moves))
+        check_moves(self.moves, self.rate, "rate")
+        conform(self)
         self._kind.check_groups(self)
 
     @property
@@ -450,35 +479,3 @@ def _check_parts(problem: Any) -> None:
             else f"the body {body} is for plane strain, not for a {shape.word}; omit it, or use a "
             "FlatPunch"
         )
-
-
-def _check_reduced(groups: Any) -> None:
-    """Raise an error for groups with parts that are not reduced, or without motion."""
-    plain = groups.in_plane_strain
-    if (groups.tabor is None) != plain or (groups.cohesion is None) == plain:
-        needs = (
-            "cohesion, sigma_0/E_0*, and no Tabor number"
-            if plain
-            else "Tabor number and no cohesion"
-        )
-        raise InputError(
-            f"a {groups.geometry.word} needs a {needs}: give for example "
-            f"{'cohesion=0.05' if plain else 'tabor=3.24'}, got cohesion={groups.cohesion} and "
-            f"tabor={groups.tabor}",
-            field="cohesion" if plain else "tabor",
-        )
-    if groups.material.rubbery_modulus != 1 or groups.material.poisson_ratio != 0:
-        raise InputError(
-            "the material of dimensionless groups must have a rubbery modulus of 1 and a "
-            f"Poisson ratio of 0, got {groups.material}; use material.reduced()"
-        )
-    if groups.traction.work_of_adhesion != 1 or groups.traction.equilibrium_gap != 1:
-        raise InputError(
-            f"the traction law of dimensionless groups must be reduced, got {groups.traction}; "
-            "use traction.reduced()"
-        )
-    if not isinstance(groups.start, Start | Apart):
-        raise InputError(f"start must be AtDepth, AtForce, AtRadius or Apart, got {groups.start!r}")
-    object.__setattr__(groups, "moves", tuple(groups.moves))
-    check_moves(groups.moves, groups.rate, "rate")
-    conform(groups)

@@ -144,30 +144,24 @@ class StatedSurface:
             If the numbers do not go together, or the file is no map or has changed.
         """
         if self.file:
-            found = self._measured()
+            if self.sha256 and hash_of(self.file) != self.sha256:
+                raise InputError(f"{self.file} has changed since it was planned; plan it again")
+            found = read_map(
+                self.file, pixel=self.pixel, unit=self.height_unit, periodic=bool(self.periodic)
+            )
         else:
-            found, *others = [self._generated(kind) for kind in self.kind]
+            maps: list[HeightMap] = []
+            for kind in self.kind:
+                make, needed, optional = KINDS[kind]
+                given = {name: getattr(self, name) for name in (*needed, *optional)}
+                if kind == "self-affine":
+                    given |= {"seed": self.seed or 0, "periodic": self.periodic}
+                stated = {name: value for name, value in given.items() if value is not None}
+                maps.append(make(self.pixels, self.pixel, **stated))
+            found, *others = maps
             for other in others:
                 found = found + other
-        if self.level:
-            found = found.levelled(curvature=self.remove_curvature)
-        return found
-
-    def _measured(self) -> HeightMap:
-        if self.sha256 and hash_of(self.file) != self.sha256:
-            raise InputError(f"{self.file} has changed since it was planned; plan it again")
-        return read_map(
-            self.file, pixel=self.pixel, unit=self.height_unit, periodic=bool(self.periodic)
-        )
-
-    def _generated(self, kind: str) -> HeightMap:
-        make, needed, optional = KINDS[kind]
-        given = {name: getattr(self, name) for name in (*needed, *optional)}
-        given = {name: value for name, value in given.items() if value is not None}
-        if kind == "self-affine":
-            given = {"seed": 0} | given
-            given |= {} if self.periodic is None else {"periodic": self.periodic}
-        return make(self.pixels, self.pixel, **given)
+        return found.levelled(curvature=self.remove_curvature) if self.level else found
 
 
 @dataclass(frozen=True)

@@ -242,7 +242,8 @@ def sphere(pixels: int, pixel: float, *, radius: float) -> HeightMap:
     >>> f"{cap.heights.min():.3g}"
     '-1.22e-08'
     """
-    x = _centred(pixels, pixel)
+    _check(pixels)
+    x = (np.arange(pixels) + 0.5 - pixels / 2) * positive("pixel", pixel, "m")
     R = positive("radius", radius, "m")
     return HeightMap(-np.add.outer(x**2, x**2) / (2 * R), pixel, beyond=R)
 
@@ -362,11 +363,6 @@ def _check(pixels: int) -> None:
     """Refuse a map of too many pixels before it takes memory."""
     if not FEWEST <= pixels <= MOST_GENERATED:
         raise InputError(f"pixels must lie between {FEWEST} and {MOST_GENERATED}, got {pixels}")
-
-
-def _centred(pixels: int, pixel: float) -> npt.NDArray:
-    _check(pixels)
-    return (np.arange(pixels) + 0.5 - pixels / 2) * positive("pixel", pixel, "m")
 
 
 def _lattice(pixels: int, pixel: float, spacing: float) -> tuple[int, npt.NDArray, npt.NDArray]:
