@@ -316,15 +316,10 @@ def effective_solid(
             elements += [(part * C, time) for C, time in retardation_series(solid)]
     if not elements:
         return Elastic(rubbery_modulus=1 / instantaneous, poisson_ratio=nu)
-    return relaxation_series(_merged(elements), glassy_modulus=1 / instantaneous, poisson_ratio=nu)
-
-
-def _merged(elements: list[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
-    """Return Voigt elements sorted by time, those of the same time as one."""
-    found: list[tuple[float, float]] = []
+    merged: list[tuple[float, float]] = []
     for compliance, time in sorted(elements, key=lambda element: element[1]):
-        if found and time <= found[-1][1] * (1 + _SAME):
-            found[-1] = found[-1][0] + compliance, found[-1][1]
+        if merged and time <= merged[-1][1] * (1 + _SAME):
+            merged[-1] = merged[-1][0] + compliance, merged[-1][1]
         else:
-            found.append((compliance, time))
-    return tuple(found)
+            merged.append((compliance, time))
+    return relaxation_series(merged, glassy_modulus=1 / instantaneous, poisson_ratio=nu)

@@ -320,12 +320,15 @@ def allowed(passport: Passport) -> tuple[Any, ...]:
         return passport.allowed
     known = {field.name for field in fields(passport.material)}
     quantile = NormalDist().inv_cdf((1 + passport.evidence.level) / 2)
-    widths = {
-        name: _width(getattr(passport.material, name), low, high) / quantile
-        for name, low, high in passport.evidence.intervals
-        if name in known
-    }
-    widths = {name: width for name, width in widths.items() if width > 0}
+    widths = {}
+    for name, low, high in passport.evidence.intervals:
+        if name in known:
+            value = getattr(passport.material, name)
+            # half-widths of the interval of ln(value), of its bounded sides
+            sides = [log(value / low)] if low > 0 else []
+            sides += [log(high / value)] if high < inf else []
+            if sides and np.mean(sides) > 0:
+                widths[name] = float(np.mean(sides)) / quantile
     if not widths:
         return ()
     rng = np.random.default_rng(20)
@@ -340,13 +343,6 @@ def allowed(passport: Passport) -> tuple[Any, ...]:
         except InputError:  # glassy softer than rubbery modulus, or an exponent out of range
             continue
     return tuple(solids)
-
-
-def _width(value: float, low: float, high: float) -> float:
-    """Return the half-width of an interval of ln(value), from its bounded sides."""
-    sides = [log(value / low)] if low > 0 else []
-    sides += [log(high / value)] if high < inf else []
-    return float(np.mean(sides)) if sides else 0.0
 
 
 def known_of(

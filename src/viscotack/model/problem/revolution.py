@@ -227,15 +227,23 @@ def _check_disc(problem: Any) -> None:
 
 def _check_flank(problem: Any) -> None:
     shape, h0 = problem.geometry, problem.traction.equilibrium_gap
-    rim = _where_risen(shape, h0)
+    if np.isinf(detail(shape)):
+        rim = _where(lambda r: float(shape.gap(r)), h0)
+        # the largest allowed contact
+        a = _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    else:
+        # where it is steepest up to this gap, and to where it is not too steep and known
+        r = _radii(shape)
+        near = r[np.asarray(shape.gap(r)) <= h0]
+        rim = float(near[np.argmax(np.abs(shape.flank(near)))])
+        steep = np.flatnonzero(np.abs(shape.flank(r)) > STEEPEST_FLANK)
+        a = float(r[steep[0]]) if steep.size else float(r[-1])
     flank = float(shape.flank(rim))
     if flank > STEEPEST_FLANK:
         raise InputError(
             f"the flank of {shape} is too steep: its slope is {flank:.3g} where the gap "
             f"is equilibrium_gap = {h0:.3g} m, valid up to {STEEPEST_FLANK}"
         )
-    # the largest allowed contact
-    a = _where_steep(shape)
     limit = f"the slope of the flank at the edge of its contact would be over {STEEPEST_FLANK}"
     pressed = _pressed_through(problem)
     if pressed < a:
@@ -287,24 +295,6 @@ def _pressed_through(problem: Any) -> float:
     if excess(least) >= 0:
         return least
     return float(scipy.optimize.brentq(excess, least, most))  # type: ignore[arg-type]
-
-
-def _where_risen(shape: Any, gap: float) -> float:
-    """Return where a shape is steepest up to this gap [m], or where it has it if it never falls."""
-    if np.isinf(detail(shape)):
-        return _where(lambda r: float(shape.gap(r)), gap)
-    r = _radii(shape)
-    near = r[np.asarray(shape.gap(r)) <= gap]
-    return float(near[np.argmax(np.abs(shape.flank(near)))])
-
-
-def _where_steep(shape: Any) -> float:
-    """Return the largest radius [m] up to which the flank is not too steep, and the shape known."""
-    if np.isinf(detail(shape)):
-        return _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
-    r = _radii(shape)
-    steep = np.flatnonzero(np.abs(shape.flank(r)) > STEEPEST_FLANK)
-    return float(r[steep[0]]) if steep.size else float(r[-1])
 
 
 def _radii(shape: Any) -> Any:
