@@ -110,9 +110,9 @@ def test_the_time_of_the_whole_test_is_not_taken_for_the_time_since_the_step(fil
     for row in second[3:]:
         row[1] += 8.5
     path = file({"Data": [*first, [], *second]}, "creep.xlsx")
-    with pytest.raises(InputError, match=r'begins at 9.5 s.*--step-start "8 s"'):
+    with pytest.raises(InputError, match=r'begins at 9.5 s.*`step_start` to "8 s"'):
         lab.read(path)
-    with pytest.raises(InputError, match="--step-start"):
+    with pytest.raises(InputError, match="`step_start`"):
         lab.read(path, table="2")
     found = lab.read(path, step_start=8.5)
     np.testing.assert_allclose(found.time, np.arange(1.0, 9.0))
@@ -129,7 +129,7 @@ def test_the_sheet_with_a_test_is_read_and_another_by_its_name(file):
     assert any("sheet 'One' is read" in note for note in lab.read(path).source.notes)
     for choice in ("Two", "3"):
         assert set(lab.read(path, table=choice).storage) == {200.0}
-    with pytest.raises(InputError, match="no table '4' .*3: Two, row 3"):
+    with pytest.raises(InputError, match="no `table` '4'.*3: Two, row 3"):
         lab.read(path, table="4")
 
 
@@ -178,9 +178,9 @@ def test_a_column_and_its_unit_are_chosen_by_heading_or_number(file):
 @pytest.mark.parametrize(
     ("columns", "words"),
     [
-        ("hardness=1", "--columns must be like"),
+        ("hardness=1", "`columns` must be like"),
         ("storage=G1 [Pa]", "no column 'G1'"),
-        ("storage=G' [kPa]", 'the file states Pa for "G\'", but --columns kPa'),
+        ("storage=G' [kPa]", 'the file states Pa for "G\'", but `columns` kPa'),
         ("storage=2; loss=2", '"G\'" is chosen as storage and as loss'),
     ],
 )
@@ -214,7 +214,7 @@ def test_text_of_jpk_is_read_with_its_cantilever(file):
 def test_columns_of_a_rig_are_chosen_by_number(file):
     rows = "\n".join(f"{t},{abs(t - 20) / 10 + 1},{max(20 - t, 0)}" for t in range(41)) + "\n"
     path = file(rows)
-    with pytest.raises(InputError, match="--time-column 1"):
+    with pytest.raises(InputError, match="`time_column`"):
         tack.read(path)
     columns = {"time_column": "1", "position_column": "2", "force_column": "3"}
     units = {"time_unit": "s", "length_unit": "mm", "force_unit": "mN"}
@@ -247,7 +247,7 @@ def test_text_of_nt_mdt_needs_the_cantilever_of_the_caller(file):
     pytest.importorskip("afmformats", reason="pip install viscotack[afm]")
     rows = "".join(f"{-8000 + 8 * i},5\t{1 + i / 10:.1f}\t{1 + i / 9:.4f}\n" for i in range(60))
     path = file(rows.replace(".", ","), "nova.txt")
-    with pytest.raises(InputError, match="sensitivity and spring constant.*--sensitivity"):
+    with pytest.raises(InputError, match="sensitivity and spring constant.*`sensitivity`"):
         tack.read(path, format="afmformats")
     cantilever = {"spring_constant": 0.1, "sensitivity": 50.0, "nominal_speed": 1e-6}
     (record,) = tack.read(path, format="afmformats", **cantilever)

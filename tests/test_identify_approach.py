@@ -202,7 +202,7 @@ def test_files_of_a_mems_indenter_are_read(file):
     assert read.pull_off_force.value == pytest.approx(cycle.pull_off_force.value, rel=1e-3)
     assert read.speed.value == pytest.approx(SPEED, rel=0.01)
     (refused,) = survey([path]).reasons
-    assert "--spring-constant" in str(refused)
+    assert "`spring_constant`" in str(refused)
 
 
 def test_the_operation_bounds_the_range(file):

@@ -113,13 +113,13 @@ def test_a_column_that_tells_states_apart_is_asked_for(heading, cells, tmp_path)
         "G'' [Pa]": np.tile(LOSS, 2),
     }
     path = write(tmp_path / "a.csv", twice | {heading: cells})
-    with pytest.raises(InputError, match=f'"{heading}".*--where'):
+    with pytest.raises(InputError, match=f'"{heading}".*`where`'):
         read_dma(path)
     first = cells[0] if isinstance(cells[0], str) else f"{cells[0]:g}"
     assert_the_sweep(read_dma(path, where=f"{heading}={first}"))
-    with pytest.raises(InputError, match="--where"):
+    with pytest.raises(InputError, match="`where`"):
         read_dma(path, where=f"{heading}=other")
-    with pytest.raises(InputError, match="--where"):
+    with pytest.raises(InputError, match="`where`"):
         read_dma(path, where="Nothing=1")
 
 
@@ -150,14 +150,14 @@ def test_sweeps_of_one_temperature_that_contradict_each_other_are_not_pooled(kel
             lambda sweeps: master_curve(sweeps, reference_temperature=reference),
             lambda sweeps: fit(sweeps, poisson_ratio=0.5, model="sls"),
         ):
-            with pytest.raises(InputError, match="--where"):
+            with pytest.raises(InputError, match="`where`"):
                 pool(pooled(factor, kelvin=kelvin))
     # the same in one sweep, sorted by frequency
     mixed = pooled(1.2, kelvin=kelvin, order=np.arange(20).reshape(2, 10).T.ravel())
     one = FrequencySweeps(
         mixed.temperature, mixed.angular_frequency, mixed.storage, mixed.loss, "G", np.zeros(20)
     )
-    with pytest.raises(InputError, match="--where"):
+    with pytest.raises(InputError, match="`where`"):
         master_curve(one, reference_temperature=reference)
 
 
@@ -175,7 +175,7 @@ def test_samples_of_tack_tests_are_not_pooled_but_chosen(tmp_path):
     table = {"Time [s]": test.time, "Depth [um]": 1e6 * test.drive, "Force [mN]": 1e3 * test.force}
     twice = {name: np.tile(column, 2) for name, column in table.items()}
     path = write(tmp_path / "a.csv", twice | {"Sample": ["A"] * 1260 + ["B"] * 1260})
-    with pytest.raises(InputError, match='"Sample".*--where'):
+    with pytest.raises(InputError, match='"Sample".*`where`'):
         read_tests(path)
     (found,) = read_tests(path, where="Sample=B")
     assert_allclose(found.force, test.force, rtol=1e-6)
@@ -193,9 +193,9 @@ def test_a_unit_that_the_file_states_wins():
         assert cycle.speed.value == pytest.approx(10e-6, rel=1e-3)
         assert cycle.pull_off_force.value == pytest.approx(5.01e-3, abs=0.01e-3)
         assert cycle.work_of_separation.value == pytest.approx(32.8e-9, abs=0.1e-9)
-    with pytest.raises(InputError, match="--length-unit"):
+    with pytest.raises(InputError, match="`length_unit`"):
         read_tests(path, **chosen, length_unit="mm")
-    with pytest.raises(InputError, match="--force-unit"):
+    with pytest.raises(InputError, match="`force_unit`"):
         read_tests(path, **chosen, force_unit="N")
 
 
@@ -261,7 +261,7 @@ def test_clock_times_are_seconds(tmp_path):
     assert_allclose(read(write(tmp_path / "a.csv", short)).time, [1, 90, 120, 180])
     day = {"Time": [f"09:{time}" for time in times], "G(t) [kPa]": [4.0, 3.0, 2.0, 1.0]}
     path = write(tmp_path / "b.csv", day)
-    with pytest.raises(InputError, match="--step-start"):
+    with pytest.raises(InputError, match="`step_start`"):
         read(path)
     assert_allclose(read(path, step_start=32400.0).time, [1, 90, 120, 180])
 

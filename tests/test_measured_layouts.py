@@ -51,7 +51,7 @@ def test_json_in_lists_is_read(file):
 def test_numbers_without_a_name_above_columns_must_be_identified(file):
     bare = lab_files.TEXTS["csv_wide"].replace(" °C".encode(), b"")
     with pytest.raises(
-        ValueError, match=r"'-40' above the columns is a temperature in C or K \(--temp"
+        ValueError, match=r"'-40' above the columns is a temperature in C or K \(set `temp"
     ):
         read_dma(file(bare))
     assert_the_film(read_dma(file(bare), temperature_unit="degC"))
@@ -172,7 +172,7 @@ def test_several_files_are_one_material(file):
 def test_a_name_has_one_temperature(file):
     text = next(halves())[1]
     for name, found in (("film.csv", 0), ("film_20C_30C.csv", 2), ("PC20K.5C2.csv", 0)):
-        with pytest.raises(ValueError, match=f"--temperature-in-name.*found {found}"):
+        with pytest.raises(ValueError, match=f"`temperature_in_name`.*found {found}"):
             read_dma(file(text, name), temperature_in_name=True)
     with pytest.raises(ValueError, match="'-25C' in the file name"):
         read_dma(file(text, "film-25C.csv"), temperature_in_name=True)

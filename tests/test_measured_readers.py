@@ -96,14 +96,14 @@ THOUSANDS = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tC\n1\t1,234\t{loss}\t20\n"
 @pytest.mark.parametrize(
     ("content", "asked", "said", "column", "value"),
     [
-        (PER_SECOND, "line 3.*--frequency", {"frequency_unit": "rad/s"}, "angular_frequency", 1),
-        (PER_SECOND, "--frequency-unit", {"frequency_unit": "Hz"}, "angular_frequency", 2 * np.pi),
-        (table("1, 3, 0.4, 20", units="Hz, -, -, C"), "E'. and .E''. .--modulus-unit",
+        (PER_SECOND, "line 3.*`frequency", {"frequency_unit": "rad/s"}, "angular_frequency", 1),
+        (PER_SECOND, "`frequency_unit`", {"frequency_unit": "Hz"}, "angular_frequency", 2 * np.pi),
+        (table("1, 3, 0.4, 20", units="Hz, -, -, C"), "E'. and .E''. .*`modulus_unit`",
          {"modulus_unit": "MPa"}, "storage", 3e6),
-        (NO_KIND, "--kind E", {"kind": "G"}, "storage", 3e6),
-        (TWO_KINDS, "--kind E", {"kind": "E"}, "storage", 3e6),
-        (TWO_KINDS, "--kind E", {"kind": "G"}, "storage", 1e6),
-        (THOUSANDS.format(loss="1"), "--decimal", {"decimal": ","}, "storage", 1.234e6),
+        (NO_KIND, "`kind`", {"kind": "G"}, "storage", 3e6),
+        (TWO_KINDS, "`kind`", {"kind": "E"}, "storage", 3e6),
+        (TWO_KINDS, "`kind`", {"kind": "G"}, "storage", 1e6),
+        (THOUSANDS.format(loss="1"), "`decimal`", {"decimal": ","}, "storage", 1.234e6),
     ],
 )  # fmt: skip
 def test_what_a_file_leaves_open_is_refused_until_it_is_said(
@@ -118,7 +118,7 @@ def test_what_a_file_leaves_open_is_refused_until_it_is_said(
 def test_some_words_and_marks_need_no_flag(file):
     # 0,5 can only be a decimal comma
     assert read_dma(file(THOUSANDS.format(loss="0,5"))).storage[0] == 1.234e6
-    with pytest.raises(InputError, match="--kind must be E"):
+    with pytest.raises(InputError, match="`kind` must be E"):
         read_dma(file(NO_KIND), kind="shear")
 
 
@@ -222,7 +222,7 @@ def test_the_temperature_is_required_where_the_file_has_none(file):
     path = file(table("1, 3, 0.4", names="f, E', E''", units="Hz, MPa, MPa"))
     assert np.isnan(read_dma(path).temperature[0])
     assert read_dma(path, temperature=293.15).temperature[0] == 293.15
-    with pytest.raises(ValueError, match=r"--temperature must be above 0 K"):
+    with pytest.raises(ValueError, match=r"`temperature` must be above 0 K"):
         read_dma(path, temperature=-20)
     with pytest.raises(ValueError, match="the file states its temperatures"):
         read_dma(file(lab_files.TEXTS["csv"]), temperature=293.15)

@@ -64,7 +64,7 @@ def test_signs_are_found_from_the_signal(force_sign, travel_sign):
     turned = replace(test, force=force_sign * test.force, drive=travel_sign * test.drive)
     found = tack.evaluate(record(turned, into=0)).cycles[0]
     assert found.pull_off_force == only(test).pull_off_force
-    with pytest.raises(InputError, match="--compression"):
+    with pytest.raises(InputError, match="`compression`"):
         tack.evaluate(record(turned, into=0), compression=-force_sign)
 
 
@@ -114,7 +114,7 @@ def bad():
         "a swinging zero": (replace(test, force=swinging), "noise|known within|rest|free of"),
         "no approach": (
             replace(test, time=test.time[560:], force=test.force[560:], drive=test.drive[560:]),
-            "--retraction-only",
+            "`retraction_only`",
         ),
     }
 

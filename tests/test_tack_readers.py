@@ -80,8 +80,8 @@ def test_a_cantilever_that_the_file_names_bends():
 
 
 REFUSED = {
-    "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
-    "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
+    "no unit": (PLAIN.replace(b"[mN]", b""), "`force_unit`"),
+    "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "`force_column`"),
     "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells under"),
     "time goes back": (
         b"\r\n".join([PLAIN.split(b"\r\n")[0], *PLAIN.split(b"\r\n")[300:], PLAIN.split(b"\r\n")[9],
@@ -113,7 +113,7 @@ def test_values_missing_from_a_file_can_be_given(tmp_path):
     assert named.force == pytest.approx(WHOLE.force, rel=1e-6)
     (timed,) = read(tmp_path, PLAIN.replace(b"Time [s]", b"Number"), nominal_speed=1e-5)
     assert np.ptp(timed.time) == pytest.approx(np.sum(np.abs(np.diff(WHOLE.drive))) / 1e-5)
-    with pytest.raises(InputError, match="--format must be one of"):
+    with pytest.raises(InputError, match="`format` must be one of"):
         read(tmp_path, PLAIN, format="csv")
 
 

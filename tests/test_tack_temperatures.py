@@ -71,7 +71,7 @@ def test_a_temperature_that_cannot_be_read_or_changes_is_noted(tmp_path):
     off = only(with_column(tmp_path / "c.csv", "Temperature [K]", np.full(count, -1e4)))
     assert off.temperature is None
     found = survey([tmp_path / "a.csv"], reading={"temperature_in_name": True})
-    assert "--temperature-in-name" in found.unread[0].reason
+    assert "`temperature_in_name`" in found.unread[0].reason
 
 
 SHIFT = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)

@@ -60,7 +60,7 @@ def sweeps(file: LabFile, tables: Sequence[Table], given: Options) -> FrequencyS
         raise no_such_test(file, tables, given, "dma")
     refuse_pooled(read)
     if len({part.kind for part in parts}) > 1:
-        raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
+        raise file.error("some tables are tensile (E), others shear (G); set `kind` to one")
     source = source_of(file, notes)
     # a single table keeps its own sweep numbers
     return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
@@ -167,11 +167,11 @@ def kind_of(columns: MaterialColumns, moduli: Sequence[str], *beside: str) -> st
     said, given = columns.kind(*moduli), columns.options.kind
     if said is None and given is None:
         name = next(columns.name(quantity) for quantity in moduli if quantity in columns)
-        lacking.append(f'whether "{name}" is tensile or shear (--kind E or --kind G)')
+        lacking.append(f'whether "{name}" is tensile or shear (set `kind` to E or G)')
     if lacking:
         raise columns.error(f"the file does not state {'; nor '.join(lacking)}")
     if said is not None and given is not None and said != given:
-        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given}")
+        raise columns.error(f"the file has a modulus of kind {said}, but `kind` is {given}")
     return said or given or ""
 
 
@@ -190,7 +190,7 @@ def temperatures(columns: MaterialColumns) -> Array:
     if given is None:
         return temperature
     if not np.all(np.isnan(temperature)):
-        raise columns.error("the file states its temperatures; omit --temperature")
+        raise columns.error("the file states its temperatures; omit `temperature`")
     return np.full(temperature.size, given)
 
 
@@ -293,7 +293,7 @@ def _of_test(kind: type, file: LabFile, tables: Sequence[Table], given: Options)
     if len(found) > 1:
         numbers = [str(columns.table.number) for columns in found]
         raise file.error(
-            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one (--table)"
+            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one by `table`"
         )
     return found[0]
 
@@ -313,7 +313,7 @@ def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Optio
     if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
         raise columns.error(
             f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s, a time of day; set '
-            "--step-start"
+            "`step_start`"
         )
     if not given.step_start and timed == "time":
         _refuse_late_start(columns, time)
@@ -402,7 +402,7 @@ def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
     if np.isfinite(end).any() and 0 < np.nanmax(end) <= start:
         raise columns.error(
             f'"{columns.name("time")}" begins at {start:g} s, where the table before it ends: set '
-            f'--step-start "{np.nanmax(end):g} s"'
+            f'`step_start` to "{np.nanmax(end):g} s"'
         )
 
 

@@ -112,10 +112,10 @@ def cause(tables: Sequence[MaterialColumns], wanted: str, kind: str | None) -> s
         return "there are no numbers below its headings"
     tests = {test_of(columns) for columns in tables if columns.table.rows} - {None}
     if wanted in tests and kind:
-        return f"its moduli are not of --kind {kind}; --poisson-ratio converts them, omit --kind"
+        return f"its moduli are not of `kind` {kind}; omit it, `poisson_ratio` converts them"
     for test in TESTS:
         if test in tests and test != wanted:
-            return f"it contains {'--shift-file' if test == 'shifts' else f'--test {test}'}"
+            return f"it contains {'a `shift_file`' if test == 'shifts' else f'`test` {test}'}"
     return next(filter(None, (_nonlinear(columns) for columns in tables)), "")
 
 

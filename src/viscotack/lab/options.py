@@ -26,11 +26,16 @@ from .sweeps import KINDS
 
 _COLUMN = re.compile(r"([^=]+)=\s*(.*\S)\s*")
 _BRACKET = re.compile(r"(.*\S)\s*\[([^\[\]]+)\]")
-# the option that states a unit; the one of a compliance is that of the stress
-_UNITS = {
-    "Pa": "modulus_unit", "1/Pa": "modulus_unit", "s": "time_unit", "N": "force_unit",
-    "m": "length_unit", "K": "temperature_unit", "Hz": "frequency_unit",
-}  # fmt: skip
+# the option that states a unit, and examples of it
+UNIT_OPTIONS = {
+    "Pa": ("modulus_unit", "Pa, kPa or MPa"),
+    "1/Pa": ("modulus_unit", "Pa, kPa or MPa, of the stress"),
+    "s": ("time_unit", "s or min"),
+    "K": ("temperature_unit", "degC or K"),
+    "Hz": ("frequency_unit", "Hz or rad/s"),
+    "N": ("force_unit", "N or mN"),
+    "m": ("length_unit", "mm or um"),
+}
 
 
 class Column(NamedTuple):
@@ -53,7 +58,7 @@ class FileOptions:
 
     def __post_init__(self):
         if self.decimal not in (None, ".", ","):
-            raise InputError(f"--decimal must be . or , got {self.decimal!r}")
+            raise InputError(f"`decimal` must be . or , got {self.decimal!r}")
         if self.temperature_unit is not None:
             kelvin(self.temperature_unit)
         for target in ("Pa", "s", "N", "m"):
@@ -61,13 +66,13 @@ class FileOptions:
                 try:
                     scale(unit, target)
                 except InputError as error:
-                    name = _UNITS[target]
+                    name = UNIT_OPTIONS[target][0]
                     raise InputError(f"`{name}`: {error}", field=name) from None
 
     def check_format(self, formats: Iterable[str]) -> None:
         """Raise an error unless the format is one of these or to be detected."""
         if self.format not in (None, *formats):
-            raise InputError(f"--format must be one of {', '.join(formats)}, got {self.format!r}")
+            raise InputError(f"`format` must be one of {', '.join(formats)}, got {self.format!r}")
 
     @property
     def chosen(self) -> Mapping[str, Column]:
@@ -81,7 +86,7 @@ class FileOptions:
 
     def unit(self, target: str) -> str:
         """Return the unit given by the caller for columns without one, empty if none."""
-        own = getattr(self, _UNITS.get(target, ""), None) or ""
+        own = getattr(self, UNIT_OPTIONS.get(target, ("",))[0], None) or ""
         return f"1/({bare(own)})" if own and target == "1/Pa" else own
 
 
@@ -144,13 +149,13 @@ class Options(FileOptions):
     def __post_init__(self):
         super().__post_init__()
         if self.kind is not None and self.kind not in KINDS:
-            raise InputError(f"--kind must be E (tensile) or G (shear), got {self.kind!r}")
+            raise InputError(f"`kind` must be E (tensile) or G (shear), got {self.kind!r}")
         if self.temperature is not None and not POSSIBLE[0] < self.temperature < POSSIBLE[1]:
-            raise InputError(f"--temperature must be above 0 K, got {self.temperature!r} K")
+            raise InputError(f"`temperature` must be above 0 K, got {self.temperature!r} K")
         if self.temperature is not None and self.temperature_in_name:
-            raise InputError("give either --temperature or --temperature-in-name, not both")
+            raise InputError("give either `temperature` or `temperature_in_name`, not both")
         if not 0 <= self.step_start < math.inf:
-            raise InputError(f"--step-start must not be negative, got {self.step_start!r} s")
+            raise InputError(f"`step_start` must not be negative, got {self.step_start!r} s")
         if self.frequency_unit is not None:
             radians_per_second(self.frequency_unit, angular="rad" in self.frequency_unit)
         _ = self.chosen
@@ -164,7 +169,7 @@ class Options(FileOptions):
             quantity = COLUMNS.get(plain(match[1])) if match else None
             if match is None or quantity is None:
                 raise InputError(
-                    '--columns must be like "frequency=1 [Hz]; storage=Column name [Pa]" with '
+                    '`columns` must be like "frequency=1 [Hz]; storage=Column name [Pa]" with '
                     f"the quantities {', '.join(sorted(set(COLUMNS.values())))}, got "
                     f"{part.strip()!r}"
                 )
@@ -224,9 +229,9 @@ class TackOptions(FileOptions):
     def time_of(self, file: LabFile, position: Array, notes: list[str]) -> Array:
         """Compute the time [s] from the nominal speed."""
         if self.nominal_speed is None:
-            raise file.error("there is no column of time; set --nominal-speed to use the set speed")
+            raise file.error("there is no column of time; `nominal_speed` replaces it")
         if not 0 < self.nominal_speed < np.inf:
-            raise InputError(f"--nominal-speed must be positive, got {self.nominal_speed!r} m/s")
+            raise InputError(f"`nominal_speed` must be positive, got {self.nominal_speed!r} m/s")
         notes.append("no column of time: computed from the nominal speed, which is not verified")
         way = np.abs(np.diff(position, prepend=position[0]))
         return np.cumsum(np.where(np.isfinite(way), way, 0.0)) / self.nominal_speed

@@ -1,8 +1,7 @@
 """Read laboratory files: detect the format, note it, and return numbers in SI.
 
-If a file lacks information, the error names the option of ``viscotack material fit`` that supplies
-it; the fields of :class:`Options` have the same names, for example ``--modulus-unit`` and
-`modulus_unit`. Every reader takes :class:`Options`, and fields of it as keywords.
+If a file lacks information, the error names the field of :class:`Options` that supplies it. Every
+reader takes :class:`Options`, and fields of it as keywords.
 """
 
 from collections.abc import Callable, Sequence
@@ -96,7 +95,7 @@ def read(
         if len(opened) > 1:
             raise InputError("some files are relaxation, others creep tests; read them separately")
         raise file.error(
-            "the file contains a relaxation and a creep test; set --test relaxation or --test creep"
+            "the file contains a relaxation and a creep test; set `test` to one of them"
         )
     kind: Any = RelaxationTest if "relaxation" in tests else CreepTest
     steps = [step for one in opened for step in assembly.tests(kind, *one)]
@@ -256,11 +255,11 @@ def _selected(
         places = "; ".join(f"{table.number}: {table.place}" for table in tables)
         tables = [each for each in tables if str(given.table) in (each.sheet, str(each.number))]
         if not tables:
-            raise file.error(f"no table {given.table!r} (--table); the file has {places}")
+            raise file.error(f"no `table` {given.table!r}; the file has {places}")
     columns = [MaterialColumns(file, table, given) for table in tables]
     if lost := set(given.names).intersection(*(each.lost for each in columns)):
         headings = assembly.headings_of(tables)
-        raise file.error(f"no column {min(lost)!r} (--columns); the headings are {headings}")
+        raise file.error(f"no column {min(lost)!r}; the headings are {headings}")
     if not tables:
         return tables, ()
     first, read, alike = sheets_with_test(columns)
@@ -272,7 +271,7 @@ def _selected(
     )
     if others:
         listed = ", ".join(map(repr, others))
-        notes.append(f"{which}, {listed} are not; --table chooses a sheet")
+        notes.append(f"{which}, {listed} are not; choose another by its name")
     elif len(read) > 1:
         names = dict.fromkeys(table.sheet for table in chosen)
         notes.append(f"{which}: {', '.join(map(repr, names))}")

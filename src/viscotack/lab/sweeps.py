@@ -477,7 +477,7 @@ def refuse_unlike(sweeps: FrequencySweeps) -> None:
             raise InputError(
                 f"{sweeps.source.path or 'the sweeps'}: sweeps at {where} differ by "
                 f"{100 * np.expm1(apart):.2g} %: several samples, states or unstated "
-                "temperatures; choose one by --where or --table"
+                "temperatures; choose one by `where` or `table`"
             )
 
 
@@ -522,7 +522,7 @@ def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
         return parts[0]
     if len({part.kind for part in parts}) > 1:
         raise InputError(
-            "some files are tensile (E), others shear (G); read them separately, or set --kind"
+            "some files are tensile (E), others shear (G); read them separately, or set `kind`"
         )
     return numbered_on(parts, joined_source([part.source for part in parts]))
 

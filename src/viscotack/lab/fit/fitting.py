@@ -327,7 +327,7 @@ def _undecided(alike: Sequence[Fitted]) -> tuple[str, ...]:
     ]
     return (
         f"the data do not distinguish {' from '.join(each)}; the one with the fewest constants is "
-        "used (--model fits another)",
+        "used; name another model to fit it",
     )
 
 

@@ -116,7 +116,7 @@ def master_curve(
             )
         return _moved(sweeps, None if unknown else float(np.mean(temperature)))
     if unknown:
-        raise InputError("the temperature of some points is unknown; set --temperature")
+        raise InputError("the temperature of some points is unknown; set `temperature`")
     if shift is not None and (by is not None or vertical is not None):
         raise InputError("by and vertical apply to shifts from overlap only; omit shift=")
     reference = float(reference)
@@ -335,7 +335,7 @@ def _ordered(tests: Sequence[Test]) -> list[Test]:
         )
     unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
     if unknown:
-        raise InputError(f"the temperature of {unknown[0]} is unknown; set --temperature")
+        raise InputError(f"the temperature of {unknown[0]} is unknown; set `temperature`")
     ordered = sorted(tests, key=lambda test: test.temperature or 0.0)
     for one, other in pairwise(float(test.temperature or 0.0) for test in ordered):
         if other - one <= GAP:

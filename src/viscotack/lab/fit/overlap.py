@@ -146,7 +146,8 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
     if best in (0, tried.size - 1):
         raise InputError(
             "the curves fit best end to end, so the data do not determine the shift; superpose "
-            "another modulus (--shift-by), or give a law (--glass-transition, --wlf, --shift-file)"
+            "another modulus by `shift_by`, or give a law by `glass_transition`, `wlf` or "
+            "`shift_file`"
         )
     degree = _DEGREES[int(degree)]
     return _refined(colder, hotter, float(tried[best]), hold, degree), degree

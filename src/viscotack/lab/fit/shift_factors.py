@@ -30,7 +30,7 @@ FEWEST = 4  # smallest number of points per temperature
 MOST = 200  # largest number of points per temperature; more are averaged without loss of accuracy
 BY = ("both", "storage", "loss", "tan")
 BEST = ("both", "auto")  # by, vertical: what shifts are compared with; uses most of the data
-_LAW = "give a shift law (--glass-transition, --wlf, --shift-file)"
+_LAW = "give a shift law by `glass_transition`, `wlf` or `shift_file`"
 THERMOMETER = 0.2  # K: standard uncertainty of a chamber's temperature
 
 
@@ -133,7 +133,7 @@ def shifts_between(
         raise InputError(f"a shift needs two or more temperatures; {_LAW}")
     if not temperature[0] - GAP <= reference <= temperature[-1] + GAP:
         raise InputError(
-            f"--reference-temperature must lie between {temperature[0]:.2f} and "
+            f"`reference_temperature` must lie between {temperature[0]:.2f} and "
             f"{temperature[-1]:.2f} K, got {reference:g} K; beyond, {_LAW}"
         )
     steps = steps_between(temperature, curves, by, vertical)
@@ -207,7 +207,7 @@ def _summed(
 def temperature_levels(sweeps: FrequencySweeps) -> tuple[Array, list[FrequencySweeps]]:
     """Return each temperature [K] and its points, from cold to hot."""
     if np.any(np.isnan(sweeps.temperature)):
-        raise InputError("the temperature of some points is unknown; set --temperature")
+        raise InputError("the temperature of some points is unknown; set `temperature`")
     each = [sweeps.chosen(points) for points in levels(sweeps.temperature)]
     return np.array([float(np.mean(level.temperature)) for level in each]), each
 
@@ -227,7 +227,7 @@ def curve(temperature: float, x: Array, *y: Array) -> Curve:
     if x.size < FEWEST or np.ptp(x) < 0.1:
         raise InputError(
             f"{x.size} points at {temperature:.2f} K, over {np.ptp(x):.1g} decades, are too few "
-            f"to overlap; {_LAW}, or omit them (--leave-out)"
+            f"to overlap; {_LAW}, or `leave_out` this temperature"
         )
     if x.size <= MOST:
         return Curve(x, y)

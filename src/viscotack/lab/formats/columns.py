@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.options import FileOptions, Options
+from viscotack.lab.options import UNIT_OPTIONS, FileOptions, Options
 from viscotack.lab.sweeps import KINDS
 
 from .file import LabFile
@@ -31,6 +31,7 @@ from .headings import (
     nearness_to_sample,
     no_unit,
     plain,
+    possible,
     radians_per_second,
     recognise,
     same_unit,
@@ -50,17 +51,15 @@ from .numbers import (
 )
 from .tables import Table
 
-# the option that sets the unit of a column without one, and examples of units
-_FLAGS = {
-    "Pa": "--modulus-unit Pa, kPa or MPa",
-    "1/Pa": "--modulus-unit Pa, kPa or MPa, of the stress",
-    "s": "--time-unit s or min",
-    "K": "--temperature-unit degC or K",
-    "Hz": "--frequency-unit Hz or rad/s",
-    "N": "--force-unit N or mN",
-    "m": "--length-unit mm or um",
-}
-_IN_FILE = "written in the heading or below it"
+
+def _cure(target: str) -> str:
+    """Return how a caller states the unit of a column without one."""
+    if target not in UNIT_OPTIONS:
+        return "write it in the heading or below it"
+    name, examples = UNIT_OPTIONS[target]
+    return f"set `{name}` to {examples}"
+
+
 # largest differences of two columns of one quantity: of temperatures [K], of others relative
 _SAME_TEMPERATURE, _SAME = 0.5, 0.01
 _LARGEST_POWER = 100.0  # of a logarithm
@@ -135,11 +134,11 @@ class Columns:
             text = self.table.headings[index]
             taken = [other for other, (at, _) in found.items() if at == index]
             if taken:
-                raise self.error(f'"{text}" is chosen as {taken[0]} and as {quantity} (--columns)')
+                raise self.error(f'"{text}" is chosen as {taken[0]} and as {quantity}')
             heading = self.words.recognise(text, self.table.units[index])
             own = (heading and heading.unit) or self.table.units[index] or unit_within(text)
             if unit and own and not same_unit(own, unit):
-                raise self.error(f'the file states {own} for "{text}", but --columns {unit}')
+                raise self.error(f'the file states {own} for "{text}", but `columns` {unit}')
             kind, base = (heading.kind, heading.base) if heading else (None, None)
             found[quantity] = index, Heading(quantity, kind, own or unit, base)
         return found
@@ -259,9 +258,7 @@ class Columns:
         if no_unit(unit) and target != "1":
             unit = self.options.unit(target)
             if no_unit(unit):
-                flag = _FLAGS.get(target)
-                cure = f"; set {flag} or write the unit" if flag else ""
-                raise self.error(f'the column "{self.name(quantity)}" has no unit{cure}')
+                raise self.error(f'column "{self.name(quantity)}" has no unit; {_cure(target)}')
         with self._located(quantity):
             return scale(unit, target)
 
@@ -284,16 +281,16 @@ class Columns:
                 if not same_unit(self._unit(name), unit):
                     raise self.error(
                         f'"{self.name(name)}" is in {bare(self._unit(name))}, but '
-                        f"{_FLAGS[target].split()[0]} is {unit}"
+                        f"`{UNIT_OPTIONS[target][0]}` is {unit}"
                     )
 
     @contextmanager
-    def _located(self, quantity: str) -> Iterator[None]:
-        """Name the column in an error about its unit."""
+    def _located(self, quantity: str, row: SupportsIndex | None = None) -> Iterator[None]:
+        """Name the column, and the line of a row, in an error about its unit."""
         try:
             yield
         except ValueError as error:
-            raise self.error(f'column "{self.name(quantity)}": {error}') from None
+            raise self.error(f'column "{self.name(quantity)}": {error}', row) from None
 
     # ---- temperature ---------------------------------------------------------------------------
 
@@ -306,15 +303,14 @@ class Columns:
         unit = self.options.unit("K") if no_unit(unit) else unit
         with self._located("temperature"):
             if no_unit(unit):
-                raise InputError(f"no unit; set {_FLAGS['K']}")
+                raise InputError(f"no unit; {_cure('K')}")
             factor, offset = kelvin(unit)
         # where every row has a gap, the temperature is unknown, and no row is lost
         known = not np.all(np.isnan(self.numbers("temperature", needed=False)))
         kelvins = self.numbers("temperature", needed=known) * factor + offset
         for row in np.flatnonzero((kelvins <= POSSIBLE[0]) | (kelvins >= POSSIBLE[1])):
-            raise self.error(
-                f"a temperature of {kelvins[row]:g} K is impossible; check its unit", int(row)
-            )
+            with self._located("temperature", row):
+                possible(kelvins[row])
         self.notes += doubtful_temperature(kelvins, offset == 0.0)
         return kelvins
 
@@ -326,11 +322,11 @@ class Columns:
             raise self.error(
                 f"{text!r} above the columns is not a temperature; expected, for example, '20 °C'"
             )
-        # `lacking` has already rejected a label without a unit
-        value = in_kelvin(float(match[1]), match[2] or self.options.temperature_unit or "")
-        if not POSSIBLE[0] < value < POSSIBLE[1]:
-            raise self.error(f"a temperature of {value:g} K is impossible; check its unit")
-        return value
+        try:
+            # `lacking` has already rejected a label without a unit
+            return in_kelvin(float(match[1]), match[2] or self.options.temperature_unit or "")
+        except InputError as error:
+            raise self.error(str(error)) from None
 
     # ---- one of several columns ----------------------------------------------------------------
 
@@ -353,7 +349,7 @@ class Columns:
             apart = self._apart(quantity, first, other)
             if len(kinds) > 1:
                 raise self.error(
-                    f'"{names[0]}" and "{names[1]}" are one quantity; set --kind E or --kind G'
+                    f'"{names[0]}" and "{names[1]}" are one quantity; set `kind` to E or G'
                 )
             if not np.any(apart > 1):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
@@ -405,7 +401,7 @@ class MaterialColumns(Columns):
         said = {heading.kind for heading in headings} - {None}
         if len(said) > 1:
             raise self.error(
-                "one column is tensile (E), another one is shear (G); set --kind E or --kind G"
+                "one column is tensile (E), another one is shear (G); set `kind` to one of them"
             )
         if said:
             return said.pop()
@@ -424,15 +420,14 @@ class MaterialColumns(Columns):
             target = UNITS.get(quantity, "1")
             unknown = quantity in self and no_unit(self._unit(quantity))
             if unknown and target != "1" and not self.options.unit(target):
-                flag = _FLAGS.get(target, _IN_FILE)
-                found.setdefault(flag, []).append(f'"{self.name(quantity)}"')
-        lacking = [f"the unit of {' and '.join(names)} ({flag})" for flag, names in found.items()]
+                found.setdefault(_cure(target), []).append(f'"{self.name(quantity)}"')
+        lacking = [f"the unit of {' and '.join(names)} ({cure})" for cure, names in found.items()]
         label = _TEMPERATURE.fullmatch(self.table.label.replace(",", "."))
         unknown = label and not (label[2] or self.options.temperature_unit)
         if "temperature" in quantities and unknown:
             lacking.append(
                 f"whether {self.table.label!r} above the columns is a temperature in C or K "
-                f"({_FLAGS['K']})"
+                f"({_cure('K')})"
             )
         return lacking
 
@@ -478,7 +473,7 @@ class MaterialColumns(Columns):
                 with suppress(ValueError):  # an ambiguous unit is decided by the caller
                     own = radians_per_second(unit, angular=angular)
                 if not math.isclose(own, factor):
-                    raise InputError(f"the unit is {bare(unit)}, but --frequency-unit is {said}")
+                    raise InputError(f"the unit is {bare(unit)}, but `frequency_unit` is {said}")
         return self.numbers(name) * factor
 
 
@@ -518,5 +513,5 @@ def refuse_pooled(read: Sequence[Columns]) -> None:
             raise read[0].file.error(
                 f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
                 f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
-                f'choose, for example: --where "{heading}={first}"'
+                f'choose one by `where`, such as "{heading}={first}"'
             )

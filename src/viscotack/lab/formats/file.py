@@ -197,7 +197,7 @@ def first_fitting(
         if found is not None:
             return replace(file, format=name), found
     if said is not None:
-        raise file.error(f"the file does not have the format {said}; leave out --format")
+        raise file.error(f"the file does not have the format {said}; leave out `format`")
     return file, None
 
 

@@ -427,9 +427,16 @@ def kelvin(unit: str) -> tuple[float, float]:
 
 
 def in_kelvin(number: float, unit: str) -> float:
-    """Convert a temperature to kelvin."""
+    """Convert a temperature to kelvin; raise an error if no test can have it."""
     factor, offset = kelvin(unit)
-    return number * factor + offset
+    return possible(number * factor + offset)
+
+
+def possible(kelvins: float) -> float:
+    """Return a temperature [K] that a test can have; raise an error for any other."""
+    if POSSIBLE[0] < kelvins < POSSIBLE[1]:
+        return kelvins
+    raise InputError(f"a temperature of {kelvins:g} K is impossible; check its unit")
 
 
 def radians_per_second(unit: str, *, angular: bool) -> float:
@@ -455,7 +462,7 @@ def radians_per_second(unit: str, *, angular: bool) -> float:
         if angular:
             return 1.0
         raise InputError(
-            "a frequency in 1/s may be in Hz or in rad/s; set --frequency-unit Hz or rad/s"
+            "a frequency in 1/s may be in Hz or in rad/s; set `frequency_unit` to one of them"
         )
     # the unit library equates hertz and radians per second: compare names
     if unit.endswith("Hz"):
@@ -506,18 +513,18 @@ MATERIAL = Vocabulary(
     recognise,
     lambda found: len(found) > 1,
     "\"f, E', E'', T\"",
-    '--columns "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
-    lambda quantity, number: f'choose one, for example --columns "{quantity}={number}"',
+    '`columns`, such as "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
+    lambda quantity, number: f'choose one by `columns`, such as "{quantity}={number}"',
 )
 TACK = Vocabulary(
     recognise_tack,
     lambda found: "force" in found and bool(found & {*POSITIONS, "time"}),
     '"Time [s], Gap [mm], Normal Force [N]"',
-    "--time-column 1 --time-unit UNIT --position-column 2 --length-unit UNIT "
-    "--force-column 3 --force-unit UNIT",
+    "`time_column`, `position_column` and `force_column`, with their units",
     lambda quantity, number: (
         "which of them is that of the sample is unknown"
         if quantity == "temperature"
-        else f"choose one, for example --{quantity}-column {number}"
+        else f"choose one by `{'position' if quantity in POSITIONS else quantity}_column`, such as "
+        f"{number}"
     ),
 )

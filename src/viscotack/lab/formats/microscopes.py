@@ -338,7 +338,7 @@ def mems_text(file: LabFile, given: TackOptions) -> list[Curve] | None:
     if not file.lines or not file.lines[0].startswith(_MEMS_FIRST):
         return None
     if given.spring_constant is None:
-        raise file.error("the file states no stiffness of its spring; set --spring-constant")
+        raise file.error("the file states no stiffness of its spring; set `spring_constant`")
     end = [text.strip() for text in file.lines[:_MEMS_LOOKED]].index("eoh")
     heads = [text for text in file.lines[:end] if text.startswith(_COLUMNS[0])][0].split("\t")
     names, units = zip(*(re.split(r"\s*[\[\]]", f"{head}[]")[:2] for head in heads), strict=True)
@@ -412,7 +412,7 @@ def afm(file: LabFile, given: TackOptions) -> list[Curve] | None:
         raise
     except BaseException as error:
         # its errors do not derive from Exception, and damaged files raise others
-        cure = " (--sensitivity, --spring-constant)" if "specify" in str(error) else ""
+        cure = " (`sensitivity`, `spring_constant`)" if "specify" in str(error) else ""
         raise file.error(f"afmformats cannot read it: {error}{cure}") from None
     # what Chiaro exports as measured is the indentation, zero before contact
     answer = []

@@ -120,11 +120,11 @@ def decimal_mark(cells: Iterable[str]) -> str:
         return "."
     if any("." in cell for cell in found):
         raise InputError(
-            "some numbers have a decimal point and some a comma; set --decimal , or --decimal ."
+            "some numbers have a decimal point and some a comma; set `decimal` to one of them"
         )
     if all(_GROUPED.fullmatch(cell) for cell in with_comma):
         raise InputError(
-            f"{with_comma[0]!r} may have a decimal comma or a thousands separator; set --decimal"
+            f"{with_comma[0]!r} may have a decimal comma or a thousands separator; set `decimal`"
         )
     return ","
 

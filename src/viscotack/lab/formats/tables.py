@@ -15,11 +15,9 @@ from viscotack.errors import InputError
 
 from .file import LabFile
 from .headings import (
-    POSSIBLE,
     WORDS,
     Heading,
     Vocabulary,
-    are_columns,
     bare,
     in_kelvin,
     is_unit,
@@ -123,17 +121,6 @@ def tabulated(
     return Table(names, tuple(own), tuple(chosen), **stated)
 
 
-def holds(row: Sequence[str], numbers: Sequence[str]) -> bool:
-    """Return whether a row has numbers alone, in all columns that the caller chose by number."""
-    filled = [cell for cell in row if cell.strip()]
-    return bool(numbers and filled) and all(map(is_number, filled)) and are_columns(numbers, row)
-
-
-def numbered(row: Sequence[str]) -> list[str]:
-    """Return the numbers of columns, as headings of a table without any."""
-    return [str(i) for i in range(1, len(row) + 1)]
-
-
 def under(rows: Sequence[Row]) -> tuple[Sequence[str] | None, list[Row]]:
     """Split the rows below headings into units, if there are any, and data.
 
@@ -220,7 +207,7 @@ def where(file: LabFile, tables: Sequence[Table], conditions: str | None) -> lis
     for condition in filter(str.strip, (conditions or "").split(";")):
         name, equals, value = (part.strip() for part in condition.partition("="))
         if not equals or not name:
-            raise InputError(f'--where must be like "Sample=A", got {condition.strip()!r}')
+            raise InputError(f'`where` must be like "Sample=A", got {condition.strip()!r}')
         chosen, known = [], {}
         for table in found:
             places = [i for i, h in enumerate(table.headings) if _is(h, name)]
@@ -233,7 +220,7 @@ def where(file: LabFile, tables: Sequence[Table], conditions: str | None) -> lis
             there = ", ".join(f'"{name}={cell}"' for cell in list(known)[:12])
             headings = ", ".join(dict.fromkeys(h for table in found for h in table.headings if h))
             has = f"there are {there}" if known else f"the headings are {headings}"
-            raise file.error(f'no row has --where "{condition.strip()}"; {has}')
+            raise file.error(f'no row has "{condition.strip()}" (`where`); {has}')
         found = chosen
     return found
 
@@ -304,9 +291,7 @@ def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
             continue
         unit = number[2].strip() or (heading.unit if heading else "")
         with suppress(InputError):
-            value = in_kelvin(float(number[1].replace(",", ".")), unit)
-            if POSSIBLE[0] < value < POSSIBLE[1]:
-                found.add(value)
+            found.add(in_kelvin(float(number[1].replace(",", ".")), unit))
     return found.pop() if len(found) == 1 else None
 
 
@@ -334,8 +319,11 @@ def kelvins_in_name(path: str) -> set[float]:
     >>> kelvins_in_name("probe_300K_2.csv"), kelvins_in_name("probe_2.csv")
     ({300.0}, set())
     """
-    found = _IN_NAME.finditer(PurePath(path).stem)
-    return {in_kelvin(float(one["number"]), one["unit"]) for one in found}
+    found = set()
+    for one in _IN_NAME.finditer(PurePath(path).stem):
+        with suppress(InputError):
+            found.add(in_kelvin(float(one["number"]), one["unit"]))
+    return found
 
 
 def kelvin_in_name(file: LabFile) -> float:
@@ -352,8 +340,8 @@ def kelvin_in_name(file: LabFile) -> float:
             f"{match[1]!r} in the file name has a minus sign or a hyphen; write '_' for a hyphen"
         )
     found = kelvins_in_name(file.path)
-    if len(found) != 1 or min(found) <= 0:
+    if len(found) != 1:
         raise file.error(
-            f"--temperature-in-name needs one temperature such as '25C', found {len(found)}"
+            f"`temperature_in_name` needs one temperature such as '25C', found {len(found)}"
         )
     return found.pop()

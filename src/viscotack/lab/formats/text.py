@@ -21,26 +21,17 @@ They may also stand on their side, with the headings in the first column.
 
 import csv
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 from viscotack.errors import InputError
 
 from .file import LabFile
-from .headings import MATERIAL, Vocabulary, is_unit, recognise
+from .headings import MATERIAL, Vocabulary, are_columns, is_unit, recognise
 from .numbers import is_number
-from .tables import (
-    Row,
-    Table,
-    holds,
-    numbered,
-    of_columns,
-    stated_temperature,
-    tabulated,
-    under,
-    without_waves,
-)
+from .tables import Row, Table, of_columns, stated_temperature, tabulated, under, without_waves
 
 LOOKED = 300  # lines searched for the headings
 _FEWEST, _MOST_ROWS = 3, 50  # numbers in a row of a table on its side, and its rows
@@ -53,8 +44,8 @@ _WITHIN = re.compile(
     r"(?P<before>.*?[^\s,;@_-])[\s,;@_]*(?:at\s+|T\s*=\s*)?"
     r"(?P<label>[+-]?[0-9]+(?:[.,][0-9]+)?\s*(?:°C|ºC|℃|oC|degC|C|K))(?P<after>[\s\[(/].*)?"
 )
-# line of the headings, separator, headings
-Found = tuple[int, str | None, list[str]]
+# number, separator and cells of a line
+Line = tuple[int, str | None, Sequence[str]]
 
 
 def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
@@ -101,14 +92,66 @@ def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[T
     ValueError
         If no line looks like headings, or a row has not one cell per heading.
     """
-    found = _headings(file, words, names) or _by_number(file, names)
-    found = found or (_headings(file, words) if names else None)
-    if found is None:
-        return _on_its_side(file, words)
-    line, separator, headings = found
-    above = [[text.lstrip("#% ")] for text in file.lines[: max(line - 1, 0)]]
-    before = next((row[0] for row in reversed(above) if row[0].strip()), "").split(separator)
-    return in_rows(file, words, headings, _rows(file, line, separator), above, before)
+    lines: list[Line] = []
+    for count, text in enumerate(file.lines[:LOOKED], start=1):
+        for separator in _separators(text):
+            with suppress(InputError):
+                row = cells(file, text.lstrip("#% "), count, separator)
+                lines.append((count, separator, row))
+    found = headed(lines, words, names)
+    if found:
+        line, separator, headings = found
+        above = [[text.lstrip("#% ")] for text in file.lines[: max(line - 1, 0)]]
+        before = next((row[0] for row in reversed(above) if row[0].strip()), "").split(separator)
+        return in_rows(file, words, headings, _rows(file, line, separator), above, before)
+    for separator in filter(None, _SEPARATORS):
+        if tables := on_its_side(file, words, [text.split(separator) for text in file.lines]):
+            return tables
+    first = next((line.strip() for line in file.lines if line.strip()), "")
+    if words.recognise(first.lstrip("#% "), "") is not None:
+        raise file.error(f"{first!r} is the only column; a test needs two or more in one file")
+    raise file.error(
+        f"none of the first {LOOKED} lines looks like headings such as {words.usual} with units "
+        f"beside or below them; the file begins {first[:60]!r}; choose columns of numbers alone by "
+        f"{words.columns}"
+    )
+
+
+def headed(rows: Sequence[Line], words: Vocabulary, names: Sequence[str]) -> Line | None:
+    """Return the first row that heads a table, or that above the columns chosen by number.
+
+    A line split at spaces is a sentence unless most of its words have a meaning.
+    """
+    for number, separator, row in rows:
+        if heads(words, row, names):
+            known = sum(words.recognise(cell, "") is not None for cell in _within(row)[0])
+            if separator is not None or names or 2 * known > len(row):
+                return number, separator, row
+    for number, separator, row in rows:
+        filled = [cell for cell in row if cell.strip()]
+        if names and filled and all(map(is_number, filled)) and are_columns(names, row):
+            return number - 1, separator, [str(i) for i in range(1, len(row) + 1)]
+    return headed(rows, words, ()) if names else None
+
+
+def heads(words: Vocabulary, row: Sequence[str], names: Sequence[str] = ()) -> bool:
+    """Return whether a row heads a table, perhaps with temperatures within its headings."""
+    return words.heads(row, names) or words.heads(_within(row)[0])
+
+
+def on_its_side(
+    file: LabFile, words: Vocabulary, rows: Sequence[Sequence[str]]
+) -> list[Table] | None:
+    """Return the tables whose headings stand one below the other, in the first column."""
+    full = [i for i, row in enumerate(rows) if sum(map(is_number, row)) >= _FEWEST]
+    if not 1 < len(full) <= _MOST_ROWS or len({len(rows[i]) for i in full}) > 1:
+        return None
+    headings, *columns = zip(*(rows[i] for i in full), strict=True)
+    if not words.heads(headings):
+        return None
+    found = in_rows(file, words, headings, list(enumerate(columns, start=1)), rows[: full[0]])
+    note = "rows and columns of the table exchanged"
+    return [replace(table, notes=(*table.notes, note)) for table in found]
 
 
 def _rows(file: LabFile, begin: int, separator: str | None) -> list[Row]:
@@ -118,16 +161,16 @@ def _rows(file: LabFile, begin: int, separator: str | None) -> list[Row]:
     """
     same = file.lines[begin - 1].strip() if begin and is_comment(file.lines[begin - 1]) else ""
     rows: list[Row] = []
-    headed = bool(same)
+    below = bool(same)
     for number, text in enumerate(file.lines[begin:], start=begin + 1):
         if not is_comment(text):
             if text.strip():
                 rows.append((number, cells(file, text, number, separator)))
-                headed = False
-        elif text.strip() == same or headed:
+                below = False
+        elif text.strip() == same or below:
             row = cells(file, text.strip().lstrip("#% "), number, separator)
-            headed = text.strip() == same
-            if headed or any(is_unit(cell) for cell in row if cell.strip()):
+            below = text.strip() == same
+            if below or any(is_unit(cell) for cell in row if cell.strip()):
                 rows.append((number, row))
     return rows
 
@@ -158,83 +201,64 @@ def in_rows(
         own, labels = _labels(headings if start < 0 else rows[start][1], before)
         block = list(rows[start + 1 : end])
         # text above the next headings: "Result: ...", "Temperature: 40 °C"
-        texts = []
-        while end < len(rows) and block and _is_text(block[-1][1]):
-            texts.append(block.pop()[1])
-        above, before = texts[::-1], next(filter(any, texts), ())
+        texts: list[Sequence[str]] = []
+        while end < len(rows) and block:
+            last = block[-1][1]
+            if any(map(is_number, last)) and not last[0].rstrip().endswith(":"):
+                break
+            texts.insert(0, block.pop()[1])
+        above, before = texts, next(filter(any, reversed(texts)), ())
         units, data = under(block)
         whole = tabulated(file, words, own, units, data, words=shape, temperature=temperature)
-        found += _by_label(whole, labels) if labels else [whole]
+        if not labels:
+            found.append(whole)
+        # one table for each temperature; columns without one are common to all
+        labels = labels[: len(whole.headings)]
+        for label in dict.fromkeys(filter(None, labels)):
+            own = [i for i, other in enumerate(labels) if other == label]
+            shared = [i for i, other in enumerate(labels) if not other]
+            notes = (f"the columns under {label!r} are a separate sweep",)
+            found.append(of_columns(whole, [*shared, *own], own, label=label, notes=notes))
     return found
 
 
-def _is_text(row: Sequence[str]) -> bool:
-    return row[0].rstrip().endswith(":") or not any(map(is_number, row))
+def _labels(headings: Sequence[str], before: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Return headings without temperatures and the label of each column; none if they have none.
 
-
-def _no_headings(file: LabFile, words: Vocabulary) -> InputError:
-    """Describe a file in which no line looks like headings."""
-    first = next((line.strip() for line in file.lines if line.strip()), "")
-    if words.recognise(first.lstrip("#% "), "") is not None:
-        return file.error(f"{first!r} is the only column; a test needs two or more in one file")
-    return file.error(
-        f"none of the first {LOOKED} lines looks like headings; expected names such as "
-        f"{words.usual} with units beside or below them; the file begins {first[:60]!r}; choose "
-        f"columns of numbers alone by their number, such as {words.columns}"
-    )
-
-
-def _headings(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> Found | None:
-    return _first_line(file, words, lambda row: heads(words, row, names), bool(names))
-
-
-def heads(words: Vocabulary, row: Sequence[str], names: Sequence[str] = ()) -> bool:
-    """Return whether a row heads a table, perhaps with temperatures within its headings."""
-    return words.heads(row, names) or words.heads(_within(row)[0])
-
-
-def _by_number(file: LabFile, names: Sequence[str]) -> Found | None:
-    """Return the line above the first row of numbers, for columns chosen by number."""
-    found = _first_line(file, MATERIAL, lambda row: holds(row, names), sure=True)
-    return None if found is None else (found[0] - 1, found[1], numbered(found[2]))
-
-
-def _first_line(
-    file: LabFile, words: Vocabulary, fits: Callable[[list[str]], bool], sure: bool = False
-) -> Found | None:
-    """Return the first line that `fits` accepts.
-
-    Unless `sure`, most cells of a line split at spaces must have a meaning; otherwise it is a
-    sentence.
+    Labels stand within the headings, or above the columns, each also for those to its right; one of
+    them begins with a number. Every label has columns of its own, all with the same quantities.
     """
-    for count, text in enumerate(file.lines[:LOOKED], start=1):
-        for separator in _separators(text):
-            try:
-                row = cells(file, text.lstrip("#% "), count, separator)
-            except ValueError:
-                continue
-            if not fits(row):
-                continue
-            known = sum(words.recognise(cell, "") is not None for cell in _within(row)[0])
-            if separator or sure or 2 * known > len(row):
-                return count, separator, row
-    return None
-
-
-def _on_its_side(file: LabFile, words: Vocabulary) -> list[Table]:
-    """Return the tables of a file whose headings stand one below the other, in its first column."""
-    for separator in filter(None, _SEPARATORS):
-        split = [(i, text.split(separator)) for i, text in enumerate(file.lines)]
-        rows = [(i, row) for i, row in split if sum(map(is_number, row)) >= _FEWEST]
-        if not 1 < len(rows) <= _MOST_ROWS or len({len(row) for _, row in rows}) > 1:
+    row = [cell.strip() for cell in headings]
+    padded = [*map(str.strip, before), *[""] * len(row)][: len(row)]
+    for own, labels in (
+        _within(row),
+        (row, list(accumulate(padded, lambda left, label: label or left))),
+    ):
+        told = {*filter(None, labels)}
+        if len(told) < 2 and not any(label[:1] in "+-0123456789" for label in told):
             continue
-        headings, *columns = map(list, zip(*(row for _, row in rows), strict=True))
-        if words.heads(headings):
-            above = [[text] for text in file.lines[: rows[0][0]]]
-            found = in_rows(file, words, headings, list(enumerate(columns, start=1)), above)
-            note = "rows and columns of the table exchanged"
-            return [replace(table, notes=(*table.notes, note)) for table in found]
-    raise _no_headings(file, words)
+        columns: dict[str, list[str | None]] = {}
+        for heading, label in zip(own, labels, strict=True):
+            if heading and label:
+                known = recognise(heading)
+                columns.setdefault(label, []).append(known and known.quantity)
+        first, *others = columns.values() or [[]]
+        alike = all(each == first for each in others) and len({*first}) == len(first)
+        if others and alike and None not in first:
+            return own, labels
+    return row, []
+
+
+def _within(row: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split headings into the part without temperature, and the temperatures."""
+    headings, labels = [], []
+    for cell in row:
+        match = _WITHIN.fullmatch(cell)
+        bare = f"{match['before']} {(match['after'] or '').strip()}".strip() if match else cell
+        known = match is not None and recognise(cell) is None and recognise(bare) is not None
+        headings.append(bare if known else cell)
+        labels.append(match["label"].strip() if match is not None and known else "")
+    return headings, labels
 
 
 # ---- blocks with a count of points: TRIOS, RheoCompass -----------------------------------------
@@ -242,7 +266,11 @@ def _on_its_side(file: LabFile, words: Vocabulary) -> list[Table]:
 
 def trios(file: LabFile, *_: object) -> list[Table] | None:
     """Return the table of each step of a TRIOS export that has one; None for other files."""
-    starts = _steps(file)
+    first = [re.split("[,\t]", text, maxsplit=1)[0].strip('" ').casefold() for text in file.lines]
+    # lines after which a step begins
+    starts = [i for i, text in enumerate(first) if text == _STEP]
+    if not starts and first[:1] == ["filename"] and "variables" in first[:_STEP_LOOKED]:
+        starts = [0]
     if not starts:
         return None
     separator = "\t" if any("\t" in text for text in file.lines) else ","
@@ -252,22 +280,6 @@ def trios(file: LabFile, *_: object) -> list[Table] | None:
     ]
     above = [text.split(separator) for text in file.lines[: starts[0] or _STEP_LOOKED]]
     return _blocks(file, rows, starts, above)
-
-
-def _steps(file: LabFile) -> list[int]:
-    """Return the lines after which a step begins."""
-
-    def first_cell(text: str) -> str:
-        return re.split("[,\t]", text, maxsplit=1)[0].strip().casefold()
-
-    starts = [
-        i
-        for i, text in enumerate(file.lines)
-        if "[" in text and text.strip().strip('",').casefold() == _STEP
-    ]
-    if not starts and file.lines and first_cell(file.lines[0]) == "filename":
-        starts = [0 for text in file.lines[:_STEP_LOOKED] if first_cell(text) == "variables"][:1]
-    return starts
 
 
 def rheocompass(file: LabFile, *_: object) -> list[Table] | None:
@@ -309,11 +321,8 @@ def _blocks(
         number of rows differs from the stated count.
     """
     shared = {"words": geometry(above), "temperature": stated_temperature(above)}
-    ends = [*starts[1:], len(rows)]
-    tables = (
-        _block(file, rows[start:end], shared) for start, end in zip(starts, ends, strict=True)
-    )
-    return [table for table in tables if table is not None]
+    blocks = (rows[start:end] for start, end in pairwise([*starts, len(rows)]))
+    return [table for block in blocks if (table := _block(file, block, shared)) is not None]
 
 
 def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Table | None:
@@ -359,68 +368,3 @@ def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Tab
             line,
         )
     return table
-
-
-# ---- sweeps side by side -----------------------------------------------------------------------
-
-
-def _by_label(table: Table, labels: Sequence[str]) -> list[Table]:
-    """Return a table for each temperature; columns without one are common to all sweeps."""
-    labels = labels[: len(table.headings)]
-    shared = [i for i, label in enumerate(labels) if not label]
-    tables = []
-    for label in dict.fromkeys(filter(None, labels)):
-        own = [i for i, other in enumerate(labels) if other == label]
-        notes = (f"the columns under {label!r} are a separate sweep",)
-        tables.append(of_columns(table, [*shared, *own], own, label=label, notes=notes))
-    return tables
-
-
-def _labels(headings: Sequence[str], before: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Return headings without temperatures and the label of each column; none if they have none.
-
-    Labels stand within the headings, or above the columns; one of them begins with a number.
-    """
-    row = [cell.strip() for cell in headings]
-    for own, labels in (_within(row), (row, _above(row, before))):
-        told = {*filter(None, labels)}
-        if len(told) > 1 or any(label[:1] in "+-0123456789" for label in told):
-            if _each_has_its_own(own, labels):
-                return own, labels
-    return row, []
-
-
-def _within(row: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Split headings into the part without temperature, and the temperatures."""
-    headings, labels = [], []
-    for cell in row:
-        match = _WITHIN.fullmatch(cell)
-        bare = f"{match['before']} {(match['after'] or '').strip()}".strip() if match else cell
-        known = match is not None and recognise(cell) is None and recognise(bare) is not None
-        headings.append(bare if known else cell)
-        labels.append(match["label"].strip() if match is not None and known else "")
-    return headings, labels
-
-
-def _above(row: Sequence[str], labels: Sequence[str]) -> list[str]:
-    """Return the label above each column, or above the nearest column to the left."""
-    padded = [*map(str.strip, labels), *[""] * len(row)][: len(row)]
-    return list(accumulate(padded, lambda left, own: own or left))
-
-
-def _each_has_its_own(headings: list[str], labels: list[str]) -> bool:
-    """Return whether every temperature has its own columns, all with the same quantities."""
-    columns: dict[str, list[str]] = {}
-    for heading, label in zip(headings, labels, strict=True):
-        known = recognise(heading)
-        if known is not None:
-            columns.setdefault(label, []).append(known.quantity)
-        elif heading and label:
-            return False
-    columns.pop("", None)
-    groups = list(columns.values())
-    return (
-        len(groups) > 1
-        and all(group == groups[0] for group in groups)
-        and len(set(groups[0])) == len(groups[0])
-    )

@@ -16,8 +16,8 @@ from viscotack.files.archive import check_unpacked
 
 from .file import LARGEST_UNPACKED, LabFile
 from .headings import MATERIAL, Vocabulary
-from .tables import Table, holds, numbered
-from .text import begins_interval, geometry, heads, in_rows, intervals
+from .tables import Table
+from .text import begins_interval, geometry, headed, in_rows, intervals, on_its_side
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for
@@ -56,23 +56,14 @@ def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[
 
 
 def _of_sheet(file: LabFile, words: Vocabulary, rows: Cells, names: Sequence[str]) -> list[Table]:
-    def headed(rows: Cells, names: Sequence[str] = ()) -> int | None:
-        return next((i for i, row in enumerate(rows) if heads(words, row, names)), None)
-
-    if len(rows) <= _LOOKED and headed(rows) is None:
-        on_its_side = [list(column) for column in zip(*rows, strict=True)]
-        rows = on_its_side if headed(on_its_side) is not None else rows
-    numbered_rows = list(enumerate(rows, start=1))
-    at = headed(rows[:_LOOKED], names)
-    if at and words is MATERIAL and begins_interval(rows[at - 1]):
-        return intervals(file, numbered_rows)
-    if at is None:
-        first = next((i for i, row in enumerate(rows[:_LOOKED]) if holds(row, names)), None)
-        if first is None:
-            return _of_sheet(file, words, rows, ()) if names else []
-        return in_rows(file, words, numbered(rows[first]), numbered_rows[first:], ())
-    before = rows[at - 1] if at else ()
-    return in_rows(file, words, rows[at], numbered_rows[at + 1 :], rows[:at], before)
+    found = headed([(i, "", row) for i, row in enumerate(rows[:_LOOKED], start=1)], words, names)
+    if found is None:
+        return on_its_side(file, words, rows) or []
+    at, _, headings = found
+    numbered, above = list(enumerate(rows, start=1)), rows[: max(at - 1, 0)]
+    if above and words is MATERIAL and begins_interval(above[-1]):
+        return intervals(file, numbered)
+    return in_rows(file, words, headings, numbered[at:], above, above[-1] if above else ())
 
 
 def sheets(file: LabFile) -> dict[str, Cells]:

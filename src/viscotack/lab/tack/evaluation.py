@@ -122,7 +122,7 @@ def evaluate(
         found = segments(record.time, drive)
         sign = force_sign(without_spikes(record.force, point_noise(record.force)), found)
         if compression and compression != sign:
-            raise InputError("the retraction shows the other sign; correct --compression")
+            raise InputError("the retraction shows the other sign; correct `compression`")
     except InputError as error:
         path = record.source.path
         raise InputError(f"{path}: {error}" if path else str(error)) from None
@@ -163,7 +163,7 @@ def _cycle(
     law, touch, leaves = _zero(time, way, clean, own, noise)
     if not (touch or retraction_only):
         raise InputError(
-            "no approach that begins free of contact: give the whole test, or set --retraction-only"
+            "no approach that begins free of contact: give the whole test, or set `retraction_only`"
         )
     zeros = law.at(way, time)
     force = clean - zeros

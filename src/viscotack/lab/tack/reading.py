@@ -1,8 +1,6 @@
 """Read files of tack tests: detect the layout, join intervals, return records in SI.
 
-If a file lacks information, the error names the option of ``viscotack test read`` that supplies it;
-the fields of :class:`TackOptions` have the same names, for example ``--force-unit`` and
-`force_unit`.
+If a file lacks information, the error names the field of :class:`TackOptions` that supplies it.
 """
 
 import re
@@ -194,11 +192,11 @@ def _from_table(file: LabFile, table: tables.Table, given: TackOptions, few: boo
     for word, found in (("force", "force" in columns), ("position", position)):
         if not found:
             raise file.error(
-                f"no column of {word} was recognised (headings: {known}); set --{word}-column NAME"
+                f"no column of {word} was recognised (headings: {known}); set `{word}_column`"
             )
     if len(position) > 1:
         both = " and ".join(f'"{columns.name(name)}"' for name in position)
-        raise file.error(f"two columns of position: {both}; set --position-column NAME")
+        raise file.error(f"two columns of position: {both}; set `position_column`")
     force, way = columns.si("force"), columns.si(position[0])
     heading = TACK.recognise(columns.name(position[0]), "")
     kind = heading.quantity if heading and heading.quantity in POSITIONS else "travel"

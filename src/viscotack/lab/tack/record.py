@@ -156,7 +156,7 @@ def depth_of(record: TackRecord, into: int = 0) -> Array:
     below, above = (np.subtract(*np.percentile(F[part], (98, 2))) for part in (low, high))
     if max(below, above) < _ACTIVE * min(below, above):
         raise InputError(
-            "the force changes equally at both ends of the travel; set --into + (larger is "
+            "the force changes equally at both ends of the travel; set `into` to + (larger is "
             "deeper) or -"
         )
     return x if above > below else -x
@@ -276,7 +276,7 @@ def force_sign(force: Array, cycles: list[Segments]) -> int:
         )
     if len(signs) > 1:
         raise InputError(
-            "the cycles disagree on the sign of a compression; set --compression + or -"
+            "the cycles disagree on the sign of a compression; set `compression` to + or -"
         )
     return signs.pop()
 

@@ -306,7 +306,7 @@ def _factor(same: Sequence[Cycle], shift: Shift | None) -> float | None:
     if temperature is None:
         raise InputError(
             f"the temperature of {same[0].source.path} is unknown, so that its speed cannot be "
-            "shifted; write it into the file or, with --temperature-in-name, into the file name"
+            "shifted; write it into the file or, with `temperature_in_name`, into the file name"
         )
     return 10.0 ** float(shift.log10_shift(temperature))
 
