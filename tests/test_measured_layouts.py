@@ -174,7 +174,7 @@ def test_a_name_has_one_temperature(file):
     for name, found in (("film.csv", 0), ("film_20C_30C.csv", 2), ("PC20K.5C2.csv", 0)):
         with pytest.raises(ValueError, match=f"`temperature_in_name`.*found {found}"):
             read_dma(file(text, name), temperature_in_name=True)
-    with pytest.raises(ValueError, match="'-25C' in the file name"):
+    with pytest.raises(ValueError, match="'-25C' in the name"):
         read_dma(file(text, "film-25C.csv"), temperature_in_name=True)
     assert read_dma(file(text, "a 293.15 K.csv"), temperature_in_name=True).temperature[0] == 293.15
 

@@ -1,9 +1,15 @@
-"""Assemble sweeps, relaxation and creep tests and shift factors in SI from tables of a file."""
+"""Assemble sweeps, relaxation and creep tests and shift factors in SI from tables of a file.
+
+The columns of a table identify its test. The refusal of a file without the requested test gives the
+reason, from what its tables contain.
+"""
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
-from typing import Any, TypeVar
+from itertools import pairwise
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +18,6 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.model.materials.shift import TabulatedShift
 
-from .diagnosis import cause, form_of, test_of
 from .formats.columns import MaterialColumns, refuse_pooled
 from .formats.file import LabFile
 from .formats.numbers import doubtful_modulus
@@ -35,19 +40,204 @@ _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is 
 # Relative differences of tan(delta) and |E*| from the moduli, in addition to rounding: a larger one
 # is noted, because instruments average over cycles, and refused.
 _TOLERANCE, _DAMAGED = 0.02, 0.1
+_SWEPT = 0.05  # relative range of a frequency or a temperature that is swept
+_DRIFT = 5.0  # K: largest range of temperatures of one step test
+# Pairs of columns that determine the complex modulus, the most direct ones first.
+_FORMS = (
+    ("storage", "loss"),
+    *((size, angle) for size in ("storage", "magnitude") for angle in ("tan_delta", "phase")),
+    ("dynamic_viscosity", "elastic_viscosity"),
+    ("storage_compliance", "loss_compliance"),
+    ("complex_viscosity", "tan_delta"),
+    ("complex_viscosity", "phase"),
+)
+# what the table of each test needs
+_EXPECTED = {
+    "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
+    "relaxation": "a time and a modulus (or stress and strain)",
+    "creep": "a time and a compliance (or stress and strain)",
+    "shifts": "T and log_aT, or T and aT",
+}
+Test = TypeVar("Test", RelaxationTest, CreepTest)
+# test -> measured quantity, numerator and denominator if it is not a column, and its name
+_MEASURED: dict[type, tuple[str, str, str, str]] = {
+    RelaxationTest: ("modulus", "stress", "strain", "relaxation"),
+    CreepTest: ("compliance", "strain", "stress", "creep"),
+}
 
 
-def sweeps(file: LabFile, tables: Sequence[Table], given: Options) -> FrequencySweeps:
+class Opened(NamedTuple):
+    """Tables of a file and the caller's options, the input of every reader of tests."""
+
+    file: LabFile
+    tables: list[Table]
+    given: Options
+
+    @property
+    def columns(self) -> list[MaterialColumns]:
+        """Columns of each table that has rows."""
+        return [MaterialColumns(self.file, x, self.given) for x in self.tables if x.rows]
+
+    @property
+    def headings(self) -> str:
+        """Headings of all tables as text for an error message."""
+        found = dict.fromkeys(h for table in self.tables for h in table.headings if h)
+        return ", ".join(f'"{heading}"' for heading in found) or "no headings"
+
+    def source(self, notes: Sequence[str]) -> Source:
+        """Return the source of the numbers, with each note once."""
+        file = self.file
+        return Source(file.path, file.sha256, file.format, tuple(dict.fromkeys(notes)))
+
+    def lacks(self, wanted: str) -> InputError:
+        """Return the error for a file without the requested test, with the reason."""
+        every = self._replace(given=replace(self.given, kind=None)).columns
+        tests = {test_of(columns) for columns in every}
+        others = [test for test in _EXPECTED if test in tests and test != wanted]
+        if not every:
+            why = "there are no numbers below its headings"
+        elif wanted in tests and self.given.kind:
+            why = f"its moduli are not of `kind` {self.given.kind}; `poisson_ratio` converts them"
+        elif others:
+            why = "it contains a `shift_file`" if others[0] == "shifts" else f"`test` {others[0]}"
+        else:
+            found = (_nonlinear(columns) for columns in every)
+            why = next(filter(None, found), f"found {self.headings}")
+        return self.file.error(f"no table with {_EXPECTED[wanted]}; {why}")
+
+
+# ---- tests of tables -----------------------------------------------------------------------------
+
+
+def test_of(columns: MaterialColumns) -> str | None:
+    """Return the test that the columns of a table belong to, or None.
+
+    If both stress and strain are present, the one held constant identifies the test.
+    """
+    if form_of(columns):
+        return "dma"
+    if _has_shifts(columns):
+        return "shifts"
+    if not ("time" in columns or "step_time" in columns):
+        return None
+    both = "stress" in columns and "strain" in columns
+    steps = columns.table.levels
+    if "stress" in columns and "strain" in steps:
+        return "relaxation"
+    if "strain" in columns and "stress" in steps:
+        return "creep"
+    modulus, compliance = "modulus" in columns or both, "compliance" in columns or both
+    if modulus and compliance:
+        return _by_what_is_held(columns) if both else None
+    return "relaxation" if modulus else "creep" if compliance else None
+
+
+def sheets_with_test(tables: Sequence[MaterialColumns]) -> tuple[str, set[str], set[str]]:
+    """Return the sheet with a test, the sheets read with it, and others with the same columns.
+
+    It is the first sheet with a test, preferably with one that sweeps and lacks no unit. Sheets of
+    sweeps with the same headings belong to one test if each has temperatures of its own.
+    """
+
+    def score(columns: MaterialColumns) -> tuple[bool, bool, bool]:
+        test = test_of(columns) if columns.table.rows else None
+        sweeps = test is not None and (test != "dma" or _sweeps(columns))
+        return test is not None, sweeps, sweeps and not columns.lacking(*columns.quantities)
+
+    sheet = max(tables, key=score).table.sheet
+    swept = [x for x in tables if x.table.rows and test_of(x) == "dma" and _sweeps(x)]
+    headings = next((x.table.headings for x in swept if x.table.sheet == sheet), ())
+    alike = [one for one in swept if one.table.headings == headings]
+    names = {one.table.sheet for one in alike} or {sheet}
+    found: list[tuple[float, str]] = []
+    for one in alike:
+        with suppress(InputError):
+            found += [(float(T), one.table.sheet) for T in np.unique(one.temperature())]
+    known = [pair for pair in sorted(found) if np.isfinite(pair[0])]
+    apart = all(b - a > GAP for (a, one), (b, other) in pairwise(known) if one != other)
+    if {name for _, name in known} == names and apart:
+        return sheet, names, set()
+    return sheet, {sheet}, names - {sheet}
+
+
+def _sweeps(columns: MaterialColumns) -> bool:
+    """Return whether a frequency or a temperature varies by more than it scatters."""
+    try:
+        swept = [
+            columns.numbers(quantity, needed=False)
+            for quantity in ("frequency", "angular_frequency", "temperature")
+            if quantity in columns
+        ]
+    except InputError:
+        return False
+    known = (values[np.isfinite(values)] for values in swept)
+    return any(x.size and np.ptp(x) > _SWEPT * np.max(np.abs(x)) for x in known)
+
+
+def form_of(columns: MaterialColumns) -> tuple[str, str] | None:
+    """Return the two columns from which a complex modulus over frequency follows, or None."""
+    if "frequency" not in columns and "angular_frequency" not in columns:
+        return None
+    return next((form for form in _FORMS if all(name in columns for name in form)), None)
+
+
+def _nonlinear(columns: MaterialColumns) -> str:
+    """Describe a table without a linear viscoelastic test; empty if unknown."""
+    timed = "time" in columns or "step_time" in columns
+    swept = "frequency" in columns or "angular_frequency" in columns
+    stress, strain = "stress" in columns, "strain" in columns
+    rate, viscosity = "shear_rate" in columns, "viscosity" in columns
+    size = "storage" in columns or "magnitude" in columns
+    # a wave of large amplitude has its rate beside strain and stress
+    waves = timed and stress and strain and rate and not viscosity
+    cases = (
+        (waves, "it is waves of strain and stress"),
+        (rate or viscosity, "it is a flow curve or the start-up of a steady flow"),
+        (not swept and "storage" in columns and strain, "it is an amplitude sweep"),
+        (timed and stress and strain, "neither stress nor strain is held; separate the steps"),
+        (timed and stress, "it has a stress over time without strain or modulus"),
+        (timed and strain, "it has a strain over time without stress or compliance"),
+        (swept and size, "the complex modulus lacks a loss modulus or a loss angle"),
+    )
+    return next((words for holds, words in cases if holds), "")
+
+
+def _by_what_is_held(columns: MaterialColumns) -> str | None:
+    spread = {}
+    for quantity in ("stress", "strain"):
+        try:
+            inside = columns.held(quantity)
+        except ValueError:
+            return None
+        spread[quantity] = inside.mean() if inside.size else 0.0
+    stress = columns.numbers("stress", needed=False)
+    stress = np.abs(stress[np.isfinite(stress)])
+    if not stress.size or np.median(stress) == 0.0:
+        return None  # the recovery after creep holds no stress
+    if max(spread.values()) < 0.5 or spread["stress"] == spread["strain"]:
+        return None
+    return "creep" if spread["stress"] > spread["strain"] else "relaxation"
+
+
+# ---- frequency sweeps ----------------------------------------------------------------------------
+
+
+def sweeps(opened: Opened) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
+    file, tables, given = opened
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
         columns = MaterialColumns(file, table, given)
         form = form_of(columns)
         if not table.rows or form is None:
-            notes.append(f"ignored a table without sweeps: {headings_of([table])}")
+            headings = opened._replace(tables=[table]).headings
+            notes.append(f"ignored a table without sweeps: {headings}")
             continue
         part = _part(columns, form)
-        if _repeats_one_state(part, len(tables)):
+        omega, temperature = part.angular_frequency, part.temperature
+        one_state = np.ptp(omega) <= 1e-3 * omega[0] and not np.ptp(temperature) > GAP
+        # a single point is a state of its own, if its temperature tells it from others
+        if one_state and (omega.size > 1 or (len(tables) > 1 and np.all(np.isnan(temperature)))):
             states.append(columns)
             notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
             continue
@@ -57,35 +247,13 @@ def sweeps(file: LabFile, tables: Sequence[Table], given: Options) -> FrequencyS
     if states and not parts:
         raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
-        raise no_such_test(file, tables, given, "dma")
+        raise opened.lacks("dma")
     refuse_pooled(read)
     if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); set `kind` to one")
-    source = source_of(file, notes)
+    source = opened.source(notes)
     # a single table keeps its own sweep numbers
     return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
-
-
-def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted: str) -> InputError:
-    """Return the error for a file without the requested test, with the content of the file."""
-    expected = {
-        "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
-        "relaxation": "a time and a modulus (or stress and strain)",
-        "creep": "a time and a compliance (or stress and strain)",
-    }
-    every = [MaterialColumns(file, table, replace(given, kind=None)) for table in tables]
-    why = cause(every, wanted, given.kind)
-    return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
-
-
-def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
-    """Return whether all points of one of several tables have one frequency and one temperature."""
-    omega, temperature = part.angular_frequency, part.temperature
-    one_frequency = np.ptp(omega) <= 1e-3 * omega[0]
-    # an unknown temperature cannot distinguish points
-    if omega.size == 1:
-        return tables > 1 and bool(np.all(np.isnan(temperature)))
-    return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
 def _part(columns: MaterialColumns, form: tuple[str, str]) -> FrequencySweeps:
@@ -107,7 +275,7 @@ def _part(columns: MaterialColumns, form: tuple[str, str]) -> FrequencySweeps:
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
         raise columns.error(
-            f"a median loss tangent of {tangent:.2g} is that of no solid; check both units"
+            f"a loss tangent of {tangent:.2g} is that of no solid; check both units"
         )
     columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
     values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
@@ -150,10 +318,8 @@ def _tangent(columns: MaterialColumns) -> Array:
     angle = columns.si("phase")
     wrong = np.flatnonzero((angle < 0) | (angle >= np.pi / 2))
     for row in wrong:
-        raise columns.error(
-            f'"{columns.name("phase")}" is {angle[row]:g} rad, not 0 to 90 degrees',
-            row,
-        )
+        name = columns.name("phase")
+        raise columns.error(f'"{name}" is {angle[row]:g} rad, not 0 to 90 degrees', row)
     return np.tan(angle)
 
 
@@ -240,11 +406,8 @@ def _same(
     slack = slack + factor * columns.resolution(name)
     off = np.abs(found - expected)
     for row in np.flatnonzero(off > slack + _DAMAGED * np.abs(expected)):
-        raise columns.error(
-            f'"{columns.name(name)}" is {found[row]:g}, but the moduli give {expected[row]:g}: a '
-            "damaged number or a wrong unit",
-            row,
-        )
+        said = f'"{columns.name(name)}" is {found[row]:g}'
+        raise columns.error(f"{said}, but the moduli give {expected[row]:g}; check its unit", row)
     rows = np.flatnonzero(off > slack + _TOLERANCE * np.abs(expected))
     if rows.size:
         worst = float(np.max(off[rows] / np.abs(expected[rows])))
@@ -254,77 +417,57 @@ def _same(
         )
 
 
-def headings_of(tables: Sequence[Table]) -> str:
-    """Return the headings of all tables as text for an error message."""
-    headings = [heading for table in tables for heading in table.headings if heading]
-    return ", ".join(f'"{heading}"' for heading in dict.fromkeys(headings)) or "no headings"
-
-
-def source_of(file: LabFile, notes: Sequence[str]) -> Source:
-    """Return the source of the numbers, with each note once."""
-    return Source(file.path, file.sha256, file.format, tuple(dict.fromkeys(notes)))
-
-
 # ---- step tests and shift factors ----------------------------------------------------------------
 
-_DRIFT = 5.0  # K: largest range of temperatures of one test
-Test = TypeVar("Test", RelaxationTest, CreepTest)
-# test -> measured quantity, numerator and denominator if it is not a column, and its name
-_MEASURED: dict[type, tuple[str, str, str, str]] = {
-    RelaxationTest: ("modulus", "stress", "strain", "relaxation"),
-    CreepTest: ("compliance", "strain", "stress", "creep"),
-}
 
-
-def _of_test(kind: type, file: LabFile, tables: Sequence[Table], given: Options) -> MaterialColumns:
-    """Return the columns of the single table with a test of a kind."""
-    wanted, over, under, test = _MEASURED[kind]
-    found = []
-    for table in tables:
-        columns = MaterialColumns(file, table, given)
-        timed = "time" in columns or "step_time" in columns
-        known = under in columns or under in table.levels
-        if table.rows and timed and (wanted in columns or (over in columns and known)):
-            found.append(columns)
-    if not found:
-        raise no_such_test(file, tables, given, test)
-    # of several steps, select the one with constant stress or strain
-    found = [columns for columns in found if test_of(columns) == test] or found
-    if len(found) > 1:
-        numbers = [str(columns.table.number) for columns in found]
-        raise file.error(
-            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one by `table`"
-        )
-    return found[0]
-
-
-def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Options) -> list[Test]:
+def tests(kind: type[Test], opened: Opened) -> list[Test]:
     """Return the tests of a kind in a file, one per temperature.
 
     Rows with monotonic time are one test, whose temperature may drift.
     """
-    columns = _of_test(kind, file, tables, given)
     wanted, over, under, test = _MEASURED[kind]
+    candidates = [
+        columns
+        for columns in opened.columns
+        if ("time" in columns or "step_time" in columns)
+        and (wanted in columns or over in columns)
+        and (wanted in columns or under in columns or under in columns.table.levels)
+    ]
+    if not candidates:
+        raise opened.lacks(test)
+    # of several steps, select the one with constant stress or strain
+    candidates = [one for one in candidates if test_of(one) == test] or candidates
+    if len(candidates) > 1:
+        numbers = ", ".join(str(one.table.number) for one in candidates)
+        raise opened.file.error(f"tables {numbers} have a {test} test; choose one by `table`")
+    columns, start = candidates[0], opened.given.step_start
     # prefer the time since the step to the time of the whole test
     timed = "step_time" if "step_time" in columns else "time"
     needed = (wanted,) if wanted in columns else (over, under)
     modulus = kind_of(columns, needed, timed, "temperature")
-    time = columns.si(timed) - given.step_start
-    if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
-        raise columns.error(
-            f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s, a time of day; set '
-            "`step_start`"
-        )
-    if not given.step_start and timed == "time":
+    time = columns.si(timed) - start
+    if columns.is_clock(timed) and not start and np.nanmin(time) > np.ptp(time):
+        begins = f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s'
+        raise columns.error(f"{begins}, a time of day; set `step_start`")
+    if not start and timed == "time":
         _refuse_late_start(columns, time)
     if wanted in columns:
         values = columns.si(wanted)
     else:
-        values = _ratio(columns, over, under)
+        values = columns.si(over)
+        step: Any = columns.table.levels.get(under)
+        if under in columns:
+            step = columns.si(under)
+            columns.keep &= step != 0
+            step = np.where(step == 0, math.nan, step)
+        values = values / step
         columns.notes.append(f"{wanted} from {over} over {under}")
     if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
         columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
-    _leave_out_what_is_not_held(columns, under, test)
+    level = columns.table.levels.get(under)
+    if under in columns:
+        _leave_out_what_is_not_held(columns, under, test)
+        held = np.abs(columns.factor(under) * columns.numbers(under, needed=False))
     temperature = temperatures(columns)
     if wanted == "modulus":
         refuse_stiffer_than_diamond(columns, values)
@@ -333,36 +476,30 @@ def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Optio
     columns.states = list(zip(kelvins, np.round(time, 9), strict=True))
     refuse_pooled([columns])
     keep = kept(columns, time, values)
+    if under in columns:
+        held = held[columns.keep & np.isfinite(held)]
+        level = float(np.median(held)) if held.size else None
     time, values, temperature = time[keep], values[keep], temperature[keep]
     steps = np.diff(time)
     runs_on = np.all(steps > 0) or np.all(steps < 0)
     whole = runs_on or np.any(np.isnan(temperature))
-    source = source_of(file, [*file.notes, *columns.notes])
+    source = opened.source([*opened.file.notes, *columns.notes])
     found = []
     for part in [np.arange(time.size)] if whole else levels(temperature):
         known = temperature[part][~np.isnan(temperature[part])]
         if known.size and np.ptp(known) > _DRIFT:
-            raise columns.error(
-                f"the temperature varies by {np.ptp(known):.3g} K; a step test has one"
-            )
-        stated: dict[str, Any] = {
-            under: _level(columns, under),
-            "temperature": float(np.mean(known)) if known.size else None,
-        }
+            raise columns.error(f"the temperature varies by {np.ptp(known):.3g} K in one step")
+        mean = float(np.mean(known)) if known.size else None
+        stated: dict[str, Any] = {under: level, "temperature": mean}
         found.append(kind(time[part], values[part], modulus, source=source, **stated))
     return found
 
 
-def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> TabulatedShift:
+def shifts(opened: Opened) -> TabulatedShift:
     """Return the shift factors of a file, as log10."""
-    for table in tables:
-        columns = MaterialColumns(file, table, given)
-        if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
-            break
-    else:
-        raise file.error(
-            f"no table with columns T and log_aT, or T and aT; found {headings_of(tables)}"
-        )
+    columns = next((one for one in opened.columns if _has_shifts(one)), None)
+    if columns is None:
+        raise opened.lacks("shifts")
     temperature = columns.temperature()
     if "log10_shift" in columns:
         horizontal = columns.numbers("log10_shift")
@@ -381,10 +518,12 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> TabulatedS
     except ValueError as error:
         raise columns.error(str(error)) from None
     if np.all(np.diff(values) > 0):
-        raise columns.error(
-            "the shifts rise with temperature; a_T exceeds 1 in the cold: give 1/a_T"
-        )
+        raise columns.error("the shifts rise with temperature; give 1/a_T, above 1 in the cold")
     return table
+
+
+def _has_shifts(columns: MaterialColumns) -> bool:
+    return "temperature" in columns and ("log10_shift" in columns or "shift" in columns)
 
 
 def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
@@ -406,20 +545,8 @@ def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
         )
 
 
-def _ratio(columns: MaterialColumns, over: str, under: str) -> Array:
-    """Return stress over strain or its inverse; the step may be stated once in the file."""
-    numerator = columns.si(over)
-    if under not in columns:
-        return numerator / columns.table.levels[under]
-    denominator = columns.si(under)
-    columns.keep &= denominator != 0
-    return numerator / np.where(denominator == 0, math.nan, denominator)
-
-
 def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: str) -> None:
     """Remove the points before and after the step; raise an error if there is no step."""
-    if quantity not in columns:
-        return
     held = columns.held(quantity)
     left = int(np.count_nonzero(columns.keep & ~held))
     if 2 * left > np.count_nonzero(columns.keep):
@@ -428,19 +555,8 @@ def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: s
             f"its level; a {test} test needs a constant {quantity}"
         )
     if left:
-        columns.notes.append(
-            f"rejected {left} points: the {quantity} is more than 5 % off its level"
-        )
+        columns.notes.append(f"rejected {left} points: the {quantity} is over 5 % off its level")
     columns.keep &= held
-
-
-def _level(columns: MaterialColumns, quantity: str) -> float | None:
-    """Return the median of a column held constant by the instrument, in SI."""
-    if quantity not in columns:
-        return columns.table.levels.get(quantity)
-    values = columns.factor(quantity) * columns.numbers(quantity, needed=False)
-    values = np.abs(values[columns.keep & np.isfinite(values)])
-    return float(np.median(values)) if values.size else None
 
 
 def _log10(columns: MaterialColumns, quantity: str) -> Array:

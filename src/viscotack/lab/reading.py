@@ -7,13 +7,13 @@ reader takes :class:`Options`, and fields of it as keywords.
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import Any, NamedTuple
+from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.model.materials.shift import TabulatedShift
 
 from . import assembly
-from .diagnosis import sheets_with_test, test_of
+from .assembly import Opened, sheets_with_test, test_of
 from .formats import reptate, text, trios_json, workbook
 from .formats.columns import MaterialColumns
 from .formats.file import LabFile, first_fitting, load
@@ -87,18 +87,17 @@ def read(
     ('RelaxationTest', 'G')
     """
     opened = _opened(path, options, more)
-    tests = {test} if test else _tests_in(opened)
+    any_kind = [each._replace(given=replace(each.given, kind=None)) for each in opened]
+    tests = {test} if test else {test_of(x) for each in any_kind for x in each.columns}
     if "dma" in tests or not tests & {"relaxation", "creep"}:
-        return joined([assembly.sweeps(*each) for each in opened])
+        return joined([assembly.sweeps(each) for each in opened])
     if {"relaxation", "creep"} <= tests:
         file = opened[0].file
         if len(opened) > 1:
             raise InputError("some files are relaxation, others creep tests; read them separately")
-        raise file.error(
-            "the file contains a relaxation and a creep test; set `test` to one of them"
-        )
+        raise file.error("the file has a relaxation and a creep test; set `test` to one of them")
     kind: Any = RelaxationTest if "relaxation" in tests else CreepTest
-    steps = [step for one in opened for step in assembly.tests(kind, *one)]
+    steps = [step for one in opened for step in assembly.tests(kind, one)]
     found = tuple(sorted(steps, key=lambda step: step.temperature or 0.0))
     return found[0] if len(found) == 1 else found
 
@@ -154,7 +153,7 @@ def read_dma(
     ([3200000.0, 4500000.0], 'E', 'csv')
     """
     opened = _opened(path, options, more)
-    return joined([assembly.sweeps(*each) for each in opened])
+    return joined([assembly.sweeps(each) for each in opened])
 
 
 def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> TabulatedShift:
@@ -196,18 +195,10 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> Tabulat
     ((2.1, 0.0), 293.15)
     """
     (opened,) = _opened([path], options, more)
-    return assembly.shifts(*opened)
+    return assembly.shifts(opened)
 
 
-class _Opened(NamedTuple):
-    """Tables of a file and the caller's options, the input of every reader of tests."""
-
-    file: LabFile
-    tables: list[Table]
-    given: Options
-
-
-def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any]) -> list[_Opened]:
+def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any]) -> list[Opened]:
     """Open one or more files, each with the temperature given by the caller."""
     given = replace(options, **more)
     paths = [path] if isinstance(path, str | PathLike) else list(path)
@@ -219,18 +210,8 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
         own = given
         if given.temperature_in_name:
             own = replace(given, temperature=kelvin_in_name(file), temperature_in_name=False)
-        opened.append(_Opened(file, tables, own))
+        opened.append(Opened(file, tables, own))
     return opened
-
-
-def _tests_in(opened: Sequence[_Opened]) -> set[str | None]:
-    """Return the tests that the tables of files contain, of whatever kind of modulus."""
-    return {
-        test_of(MaterialColumns(one.file, table, replace(one.given, kind=None)))
-        for one in opened
-        for table in one.tables
-        if table.rows
-    }
 
 
 def _tables(path: Path, given: Options) -> tuple[LabFile, list[Table]]:
@@ -258,8 +239,9 @@ def _selected(
             raise file.error(f"no `table` {given.table!r}; the file has {places}")
     columns = [MaterialColumns(file, table, given) for table in tables]
     if lost := set(given.names).intersection(*(each.lost for each in columns)):
-        headings = assembly.headings_of(tables)
-        raise file.error(f"no column {min(lost)!r}; the headings are {headings}")
+        raise file.error(
+            f"no column {min(lost)!r}; the headings are {Opened(file, tables, given).headings}"
+        )
     if not tables:
         return tables, ()
     first, read, alike = sheets_with_test(columns)

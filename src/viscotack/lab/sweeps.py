@@ -521,9 +521,7 @@ def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
     if len(parts) == 1:
         return parts[0]
     if len({part.kind for part in parts}) > 1:
-        raise InputError(
-            "some files are tensile (E), others shear (G); read them separately, or set `kind`"
-        )
+        raise InputError("some files are tensile (E), others shear (G); set `kind` to one")
     return numbered_on(parts, joined_source([part.source for part in parts]))
 
 

@@ -157,9 +157,8 @@ class Errors:
         likely = self.forms[int(np.argmax(np.where(shared, self.weights, 0)))]
         size = self.scales[self.forms.index(likely)]
         if likely.sweep:
-            return (
-                f"the points of one sweep have a common error of {100 * size * likely.sweep:.2g} %"
-            )
+            common = 100 * size * likely.sweep
+            return f"the points of one sweep have a common error of {common:.2g} %"
         return (
             f"neighbouring points have correlated errors of {100 * size * likely.drift:.2g} % over "
             f"{likely.length / np.log(10):.1g} decades: a local misfit, or the instrument drifts"

@@ -336,9 +336,7 @@ def _affordable(data: Observed) -> list[str]:
     constants = {model: 3 if model in ("sls", "prony") else 4 for model in MODELS}
     found = [model for model in MODELS if data.values.size > constants[model] + 3]
     if not found:
-        raise InputError(
-            f"{data.values.size} numbers are too few to compare models; name the one to fit"
-        )
+        raise InputError(f"{data.values.size} numbers are too few to compare models; name one")
     return found
 
 

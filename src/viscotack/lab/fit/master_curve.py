@@ -330,9 +330,7 @@ def _ordered(tests: Sequence[Test]) -> list[Test]:
         raise InputError("superposition needs one or more tests, got none")
     kinds = {f"{type(test).__name__} ({test.kind})" for test in tests}
     if len(kinds) > 1:
-        raise InputError(
-            f"only tests of one kind can be superposed, got {' and '.join(sorted(kinds))}"
-        )
+        raise InputError(f"tests must be of one kind, got {' and '.join(sorted(kinds))}")
     unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
     if unknown:
         raise InputError(f"the temperature of {unknown[0]} is unknown; set `temperature`")

@@ -205,10 +205,7 @@ def _temperatures(data: Data) -> tuple[float | None, tuple[float, float] | None]
         seen = data.temperature[np.isfinite(data.temperature)]
         # chambers hold the temperature within about 1 K
         if seen.size and np.ptp(seen) > 3:
-            raise InputError(
-                "the sweeps have several temperatures; fit a master curve "
-                "(viscotack.lab.master_curve)"
-            )
+            raise InputError("the sweeps have several temperatures; fit their master curve")
         reference = float(np.mean(seen)) if seen.size else None
     else:
         return data.temperature, None

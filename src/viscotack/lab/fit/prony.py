@@ -220,9 +220,7 @@ def fit_series(
         counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
         grids = [_grid(data, n) for n in counts if n + 3 < data.values.size]
         if not grids:
-            raise InputError(
-                f"{data.values.size} numbers are too few to choose the number of arms; give arms"
-            )
+            raise InputError(f"{data.values.size} numbers are too few to choose `arms`; give them")
         criteria = [_criterion(data, *_fitted(data, grid, data.logs)) for grid in grids]
         chosen = grids[int(np.argmin(criteria))]
         order = np.argsort(criteria)[:4]
@@ -368,9 +366,7 @@ def _moved(data: Observed, grid: Array, times: Array, weights: Array) -> tuple[A
 def _material(data: Observed, times: Array, weights: Array) -> Prony:
     arms = tuple(zip(weights[1:], times, strict=True))
     if not arms:
-        raise InputError(
-            "a Prony series needs a modulus that rises with frequency or falls with time"
-        )
+        raise InputError("a Prony series needs a modulus that falls with time, and moduli do not")
     if data.quantity == "creep":
         return relaxation_series(
             arms, glassy_modulus=1 / weights[0], poisson_ratio=data.poisson_ratio

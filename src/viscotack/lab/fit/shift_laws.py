@@ -65,10 +65,7 @@ def fit_wlf(table: TabulatedShift, *, reference_temperature: float) -> FittedShi
     best = min((least_squares(residual, s, bounds=limits) for s in starts), key=lambda f: f.cost)
     values, c1, c2 = shape(best.x)
     if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
-        raise InputError(
-            "the curvature of the shifts contradicts a WLF law; fit Arrhenius, or a part of the "
-            "table"
-        )
+        raise InputError("the shifts curve against a WLF law; fit Arrhenius, or part of the table")
     # chain rule from ln c1 and ln(c2 + coldest)
     scale = np.array([c1, c2 + coldest])
     error = scale * np.sqrt(np.diag(_covariance(best.jac, best.fun))[:2])

@@ -319,9 +319,7 @@ class Columns:
         text = self.table.label
         match = _TEMPERATURE.fullmatch(text.replace(",", "."))
         if match is None:
-            raise self.error(
-                f"{text!r} above the columns is not a temperature; expected, for example, '20 °C'"
-            )
+            raise self.error(f"{text!r} above the columns is not a temperature such as '20 °C'")
         try:
             # `lacking` has already rejected a label without a unit
             return in_kelvin(float(match[1]), match[2] or self.options.temperature_unit or "")
@@ -348,9 +346,7 @@ class Columns:
             kinds = {heading.kind for _, heading in (first, other)} - {None}
             apart = self._apart(quantity, first, other)
             if len(kinds) > 1:
-                raise self.error(
-                    f'"{names[0]}" and "{names[1]}" are one quantity; set `kind` to E or G'
-                )
+                raise self.error(f'"{names[0]}" and "{names[1]}" are one quantity; set `kind`')
             if not np.any(apart > 1):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
             elif far(other) > far(first):
@@ -400,9 +396,7 @@ class MaterialColumns(Columns):
         headings = [h for q in quantities for _, h in self._found.get(q, [])]
         said = {heading.kind for heading in headings} - {None}
         if len(said) > 1:
-            raise self.error(
-                "one column is tensile (E), another one is shear (G); set `kind` to one of them"
-            )
+            raise self.error("a column is tensile (E), another is shear (G); set `kind` to one")
         if said:
             return said.pop()
         known = [heading.kind for heading in map(recognise, self.table.headings) if heading]
@@ -453,9 +447,7 @@ class MaterialColumns(Columns):
             if np.any(apart > near):
                 if not np.nanmedian(digits[0]) < np.nanmedian(digits[1]):
                     omega, own, alien = other, alien, own
-                self.notes.append(
-                    f"{own} is used; it agrees with {alien} within the digits written"
-                )
+                self.notes.append(f"{own} is used; {alien} agrees within its digits")
         for row in np.flatnonzero(omega <= 0):
             raise self.error(f"a frequency must be positive, got {omega[row]:g} rad/s", row)
         return omega

@@ -131,9 +131,7 @@ def _decoded(file: LabFile) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         if encoding is None:
             return _by_code_page(content)
-        raise file.error(
-            f"the bytes after {error.start} are not {encoding} text; it is damaged or no table"
-        ) from None
+        raise file.error(f"the bytes after {error.start} are no {encoding} text") from None
 
 
 def _by_code_page(content: bytes) -> tuple[str, str]:
@@ -166,9 +164,7 @@ def unpacked(file: LabFile) -> dict[str, bytes]:
         raise
     except Exception as error:
         # The library raises many undocumented errors for damaged archives.
-        raise file.error(
-            f"the archive cannot be read; it may be truncated or damaged: {error}"
-        ) from None
+        raise file.error(f"the archive may be truncated or damaged: {error}") from None
 
 
 Found = TypeVar("Found")
@@ -191,9 +187,7 @@ def first_fitting(
         except InputError:
             raise
         except (LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
-            raise file.error(
-                f"read as {name}, the file is truncated, damaged or of another layout: {error!r}"
-            ) from None
+            raise file.error(f"truncated, damaged or no {name} file: {error!r}") from None
         if found is not None:
             return replace(file, format=name), found
     if said is not None:

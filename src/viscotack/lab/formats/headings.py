@@ -461,15 +461,11 @@ def radians_per_second(unit: str, *, angular: bool) -> float:
     if unit in _PER_SECOND:
         if angular:
             return 1.0
-        raise InputError(
-            "a frequency in 1/s may be in Hz or in rad/s; set `frequency_unit` to one of them"
-        )
+        raise InputError("1/s may be Hz or rad/s; set `frequency_unit` to one of them")
     # the unit library equates hertz and radians per second: compare names
     if unit.endswith("Hz"):
         if angular:
-            raise InputError(
-                "the heading states an angular frequency but the unit is Hz; correct one of them"
-            )
+            raise InputError("an angular frequency is not in Hz; correct heading or unit")
         return 2 * math.pi * scale(unit, "Hz")
     if unit in ("rpm", "1/min", "min^-1"):
         raise InputError(f"{unit!r} is a speed of rotation; expected Hz or rad/s")

@@ -118,9 +118,7 @@ def _calibrated(file: LabFile, name: str, words: _Words, content: bytes) -> Arra
     while slot != base:
         key = f"conversion-set.conversion.{slot}."
         if words.get(f"{key}defined") != "true" or key in steps:
-            raise file.error(
-                f"{name} is not calibrated in {unit}; calibrate the cantilever and save it again"
-            )
+            raise file.error(f"{name} is not calibrated in {unit}; calibrate and save it again")
         steps.insert(0, key)
         slot = words.get(f"{key}base-calibration-slot", "")
     if kind in _INTEGERS:
@@ -212,9 +210,7 @@ def ibw(file: LabFile, *_: object) -> list[Curve] | None:
     # the first entry counts
     noted = dict(reversed(_NOTED.findall(note)))
     if missing := {"Defl", "ZSnsr"} - columns.keys() or {"SpringConstant"} - noted.keys():
-        raise file.error(
-            f"the wave lacks {min(missing)}; calibrate the cantilever and save the curve again"
-        )
+        raise file.error(f"the wave lacks {min(missing)}; calibrate and save the curve again")
     stiffness, rate = float(noted["SpringConstant"]), float(noted["NumPtsPerSec"])
     deflection, height = columns["Defl"], columns["ZSnsr"]
     keep = np.isfinite(deflection) & np.isfinite(height)
@@ -358,10 +354,7 @@ def mems_text(file: LabFile, given: TackOptions) -> list[Curve] | None:
         if np.ptp(piezo) < np.ptp(spring):
             # a spring bends no farther than its drive moves
             piezo, time = 1e3 * piezo, 1e3 * time
-            notes = (
-                "piezo in um and time in s, whatever the headings: else the spring bends farther "
-                "than the piezo moves",
-            )
+            notes = ("piezo and time read in um and s: by the headings it moves too little",)
         stiffness = given.spring_constant
         found.append(Curve(time, stiffness * spring, piezo, 1, stiffness, notes))
     if not found:
@@ -397,9 +390,8 @@ def afm(file: LabFile, given: TackOptions) -> list[Curve] | None:
     try:
         library = import_module("afmformats")
     except ImportError:
-        raise file.error(
-            f"this format needs afmformats; install it with: {install_command('afm')}"
-        ) from None
+        command = install_command("afm")
+        raise file.error(f"this format needs afmformats; install it with: {command}") from None
     if file.content.startswith(b"PK"):
         unpacked(file)
     # afmformats also logs the tracebacks of its errors

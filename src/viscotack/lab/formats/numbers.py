@@ -47,9 +47,7 @@ def number(text: str, mark: str) -> float:
         return math.nan
     other = "," if mark == "." else "."
     if plain.startswith("="):
-        raise InputError(
-            f"the cell holds the formula {plain[:40]!r} without a value; save the file with values"
-        )
+        raise InputError(f"the formula {plain[:40]!r} has no value; save the file with values")
     if _NUMBER.fullmatch(plain) is None or other in plain:
         raise InputError(f"expected a number, got {text[:40]!r}")
     value = float(plain.replace(mark, "."))
@@ -119,13 +117,9 @@ def decimal_mark(cells: Iterable[str]) -> str:
     if not with_comma:
         return "."
     if any("." in cell for cell in found):
-        raise InputError(
-            "some numbers have a decimal point and some a comma; set `decimal` to one of them"
-        )
+        raise InputError("numbers have decimal points and commas; set `decimal` to one of them")
     if all(_GROUPED.fullmatch(cell) for cell in with_comma):
-        raise InputError(
-            f"{with_comma[0]!r} may have a decimal comma or a thousands separator; set `decimal`"
-        )
+        raise InputError(f"{with_comma[0]!r} has a decimal or thousands mark; set `decimal`")
     return ","
 
 

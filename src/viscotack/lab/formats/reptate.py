@@ -66,11 +66,7 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
         (c for c in _COLUMNS.values() if [_quantity(x) for x, _ in c] == quantities[: len(c)]), None
     )
     if columns is None:
-        raise file.error(
-            "the extension defines the columns of RepTate: .tts or .osc (omega, G', G''), .gt "
-            "(t, G), .creep (t, strain), .ttsf (T, aT, bT)",
-            1,
-        )
+        raise file.error("end its name with .tts, .osc, .gt, .creep or .ttsf, as RepTate does", 1)
     count, whole = len(columns), len(headings) or len(columns)
     for i, (expected, unit) in enumerate(columns[: len(headings)]):
         given, wanted = quantities[i], _quantity(expected)
@@ -89,16 +85,11 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
     tested = quantities[count : count + 1] == ["temperature"]
     for line, cells in rows:
         if len(cells) < min(whole, count + 1):
-            raise file.error(
-                f"{len(cells)} numbers under {whole} headings; the file may be truncated",
-                line,
-            )
+            raise file.error(f"{len(cells)} numbers under {whole} headings; truncated?", line)
         own = cells[count].replace(",", ".") if tested and len(cells) > count else ""
         if kelvin is not None and is_number(own) and abs(float(own) + 273.15 - kelvin) > _OFF:
-            raise file.error(
-                f'"{headings[count]}" is {own}, but the file states T={parameters["T"]} C',
-                line,
-            )
+            stated = f"the file states T={parameters['T']} C"
+            raise file.error(f'"{headings[count]}" is {own}, but {stated}', line)
     levels = {}
     if ends in _STEPS:
         quantity, key, default = _STEPS[ends]

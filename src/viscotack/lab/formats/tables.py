@@ -107,10 +107,7 @@ def tabulated(
     for line, cells in rows:
         cells = tuple(map(str.strip, cells))
         if len(cells) < width or (any(cells[width:]) and not file.is_workbook):
-            raise file.error(
-                f"{len(cells)} cells under {width} headings; the file may be truncated",
-                line,
-            )
+            raise file.error(f"{len(cells)} cells under {width} headings; truncated?", line)
         if any(cells[:width]) or not file.is_workbook:
             chosen.append((line, cells[:width]))
     names = tuple(map(unquoted, headings[:width]))
@@ -337,11 +334,9 @@ def kelvin_in_name(file: LabFile) -> float:
     stem = PurePath(file.path).stem
     if match := _HYPHEN.search(stem):
         raise file.error(
-            f"{match[1]!r} in the file name has a minus sign or a hyphen; write '_' for a hyphen"
+            f"{match[1]!r} in the name has a minus sign or a hyphen; write '_' for one"
         )
     found = kelvins_in_name(file.path)
     if len(found) != 1:
-        raise file.error(
-            f"`temperature_in_name` needs one temperature such as '25C', found {len(found)}"
-        )
+        raise file.error(f"`temperature_in_name` needs one such as '25C', found {len(found)}")
     return found.pop()

@@ -363,8 +363,5 @@ def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Tab
     table = tabulated(file, MATERIAL, headings, beside, data, **stated)
     found -= len(data) - len(without_waves(table).rows)
     if count not in (None, found):
-        raise file.error(
-            f"the block states {count} points but has {found}; it is truncated or edited",
-            line,
-        )
+        raise file.error(f"the block states {count} points but has {found}; truncated?", line)
     return table

@@ -82,16 +82,13 @@ def sheets(file: LabFile) -> dict[str, Cells]:
     try:
         return dict(_old(file.content) if old else _new(file.content))
     except ImportError as error:
-        raise ImportError(
-            f"workbooks need {error.name}; install it with: {install_command('lab')}"
-        ) from None
+        command = install_command("lab")
+        raise ImportError(f"workbooks need {error.name}; install it with: {command}") from None
     except MemoryError:
         raise
     except Exception as error:
         # The library raises many undocumented errors for damaged workbooks.
-        raise file.error(
-            f"the workbook cannot be read; it may be truncated or damaged: {error}"
-        ) from None
+        raise file.error(f"the workbook may be truncated or damaged: {error}") from None
 
 
 def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
@@ -134,8 +131,7 @@ def _rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
 def _check_size(rows: int, columns: int) -> None:
     if rows > MOST_ROWS or columns > MOST_COLUMNS or rows * columns > MOST_CELLS:
         raise InputError(
-            f"a sheet has more than {MOST_ROWS:,} rows, {MOST_COLUMNS} columns or {MOST_CELLS:,} "
-            "cells; export the part as CSV"
+            f"a sheet exceeds {MOST_ROWS:,} rows or {MOST_COLUMNS} columns; export CSV"
         )
 
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import fspath
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -51,8 +51,7 @@ _STEADY = 3.0  # K: a larger change within a cycle is noted
 _SLIDING = 0.1  # fraction of the travel by which the corrected depth may reverse
 
 
-@dataclass(frozen=True)
-class Refusal:
+class Refusal(NamedTuple):
     """A rejected cycle and the reason."""
 
     number: int
@@ -107,17 +106,13 @@ def evaluate(
     ValueError
         If there is no retraction, or a sign cannot be determined.
     """
-    if compliance is not None and not 0 <= compliance < np.inf:
-        raise InputError(f"compliance must not be negative, got {compliance!r} m/N")
-    if not 0 <= compliance_uncertainty < np.inf:
-        raise InputError(
-            f"compliance_uncertainty must not be negative, got {compliance_uncertainty!r} m/N"
-        )
+    rig = record.compliance if compliance is None else compliance, compliance_uncertainty
+    for name, value in zip(("compliance", "compliance_uncertainty"), rig, strict=True):
+        if not 0 <= value < np.inf:
+            raise InputError(f"{name} must not be negative, got {value!r} m/N")
     try:
         if len(record) < _POINTS:
-            raise InputError(
-                f"the record has {len(record)} points; a test needs at least {_POINTS}"
-            )
+            raise InputError(f"the record has {len(record)} points; a test needs {_POINTS}")
         drive = depth_of(record, into)
         found = segments(record.time, drive)
         sign = force_sign(without_spikes(record.force, point_noise(record.force)), found)
@@ -126,12 +121,10 @@ def evaluate(
     except InputError as error:
         path = record.source.path
         raise InputError(f"{path}: {error}" if path else str(error)) from None
-    machine = record.compliance if compliance is None else compliance
     cycles, refused = [], []
     for number, part in enumerate(found, start=1):
         try:
             signal = record.time, drive, sign * record.force
-            rig = machine, compliance_uncertainty
             cycles.append(_cycle(record, part, number, signal, rig, retraction_only))
         except InputError as error:
             refused.append(Refusal(number, str(error)))
@@ -153,18 +146,14 @@ def _cycle(
     time, way, raw = (row[span] for row in signal)
     back = slice(own.retract, own.end)
     if own.end - own.retract < _POINTS:
-        raise InputError(
-            f"the retraction has {own.end - own.retract} points, fewer than {_POINTS}; record "
-            "faster"
-        )
+        points = own.end - own.retract
+        raise InputError(f"{points} points in the retraction, fewer than {_POINTS}; record faster")
     # 0 is replaced by a small fraction of the range
     noise = max(point_noise(raw[back]), rounding(raw), _LEAST * float(np.ptp(raw)), 1e-300)
     clean = without_spikes(raw, noise)
     law, touch, leaves = _zero(time, way, clean, own, noise)
     if not (touch or retraction_only):
-        raise InputError(
-            "no approach that begins free of contact: give the whole test, or set `retraction_only`"
-        )
+        raise InputError("no approach free of contact: give the whole test, or `retraction_only`")
     zeros = law.at(way, time)
     force = clean - zeros
     _refuse_clipped(raw[back], force[back], way[back], law.noise)
@@ -209,11 +198,8 @@ def _cycle(
     unsure = float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract])))
     speed = _speed(time, way, crossing, at)
     if speed.uncertainty >= speed.value:
-        raise InputError(
-            f"the true speed is not determined, {readable(speed.value, 'm/s', digits=2)} +- "
-            f"{readable(speed.uncertainty, 'm/s', digits=2)}: an uneven drive, or too few points "
-            "before the pull-off"
-        )
+        both = (readable(v, "m/s", digits=2) for v in (speed.value, speed.uncertainty))
+        raise InputError(f"the speed is uncertain, {' +- '.join(both)}: uneven, or too few points")
     curve, softness = (time, way, depth, force), compliance_uncertainty
     quarter = slice(own.dwell // 4, 3 * own.dwell // 4 + 1)
     size = record.contact_radius
@@ -292,10 +278,8 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
         rounded = np.min(np.abs(beside - value)) <= _ROUNDED * digit
         clipped = len(longest) >= _CLIPPED and not rounded
         if clipped and moved > _MOVED * np.ptp(way) and away:
-            raise InputError(
-                f"the force stays at {readable(value, 'N', digits=6)}, its largest {word}, for "
-                f"{len(longest)} points while the drive moves: the sensor is saturated"
-            )
+            stays = f"{len(longest)} points at {readable(value, 'N', digits=6)}, its largest {word}"
+            raise InputError(f"the force stays for {stays}: the sensor is saturated")
 
 
 def _refuse_lone(force: Array) -> None:
@@ -303,10 +287,8 @@ def _refuse_lone(force: Array) -> None:
     at = int(np.clip(np.argmin(force), 1, force.size - 2))
     value, before, behind = (-float(one) for one in force[[at, at - 1, at + 1]])
     if max(before, behind) < (1 - _LONE) * value:
-        raise InputError(
-            f"the pull-off of {_force(value)} is a single point beside "
-            f"{_force(max(before, behind))}: a spike, or a low recording rate"
-        )
+        beside = _force(max(before, behind))
+        raise InputError(f"the pull-off of {_force(value)} is a single point beside {beside}")
 
 
 def _zero(
@@ -320,9 +302,7 @@ def _zero(
     least = int(np.argmin((outer - straight(outer, far, noise))[::-1]))
     most = own.end - own.retract - least - 1
     if outwards is None or min(outwards.free, most) < _FREE:
-        raise InputError(
-            "the force does not settle after the pull-off: retract further, until free of contact"
-        )
+        raise InputError("the force does not settle after it: retract until free of contact")
     inwards = contact_of(clean[down], way[down], clock[down], noise, 0.5)
     free = [slice(own.end - int(_KEPT * min(outwards.free, most)), own.end)]
     if inwards is not None:
@@ -345,16 +325,12 @@ def _least(force: Array, at: int, noise: float, zero: float) -> Extremum:
     if at <= 1:
         raise InputError("the force is smallest at the start of the retraction: no pull-off")
     if zero > _ZERO * value:
-        raise InputError(
-            f"the force zero is uncertain by {_force(zero)}, too much for a pull-off of "
-            f"{_force(value)}: tilt or drift"
-        )
+        off = f"uncertain by {_force(zero)}, at a pull-off of {_force(value)}"
+        raise InputError(f"the force zero is {off}: tilt or drift")
     found = extremum(force, at, noise)
     if np.hypot(found.uncertainty, zero) > _ZERO * value:
-        raise InputError(
-            f"the pull-off of {_force(value)} is uncertain by {_force(found.uncertainty)}: too "
-            "few points near it"
-        )
+        off = f"uncertain by {_force(found.uncertainty)}"
+        raise InputError(f"the pull-off of {_force(value)} is {off}: too few points near it")
     return found
 
 
@@ -364,14 +340,10 @@ def _force(value: float) -> str:
 
 def _refuse_compliance(depth: Array, way: Array, compliance: float, noise: float) -> None:
     """Raise an error if the compliance makes the depth increase while the drive retracts."""
-    if not compliance:
-        return
     rise = np.max(depth - np.minimum.accumulate(depth))
-    if rise > _SLIDING * np.ptp(way) + _OUT * compliance * noise:
-        raise InputError(
-            f"with a compliance of {readable(compliance, 'm/N')} the depth increases while the "
-            "drive retracts: it exceeds that of rig and sample"
-        )
+    if compliance and rise > _SLIDING * np.ptp(way) + _OUT * compliance * noise:
+        much = readable(compliance, "m/N")
+        raise InputError(f"a compliance of {much} is too large: the depth rises in the retraction")
 
 
 def _origin(
@@ -437,8 +409,7 @@ def _slope(t: Array, x: Array) -> float:
     return float(u @ x / max(u @ u, 1e-300))
 
 
-@dataclass(frozen=True)
-class Unread:
+class Unread(NamedTuple):
     """An unreadable file (or the first file of a test), and the reason."""
 
     path: str

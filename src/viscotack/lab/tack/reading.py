@@ -117,15 +117,10 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
     first = parts[0]
     for one, other in zip(parts, parts[1:], strict=False):
         if one.into != other.into:
-            raise InputError(
-                f"{other.source.path}: its position is another quantity than in the interval before"
-            )
+            raise InputError(f"{other.source.path}: its position is another quantity than before")
         if other.time[0] < one.time[-1]:
-            raise InputError(
-                f"{other.source.path}: it begins at {other.time[0]:g} s, before the end of the "
-                f"previous interval at {one.time[-1]:g} s; count all times from the start of the "
-                "test"
-            )
+            times = f"it begins at {other.time[0]:g} s, before the interval before ends"
+            raise InputError(f"{other.source.path}: {times}; count from the start of the test")
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
     columns: dict[str, Any] = {}
     for name in ("time", "force", "position", "contact_radius", "temperature"):
@@ -191,9 +186,7 @@ def _from_table(file: LabFile, table: tables.Table, given: TackOptions, few: boo
     position = ["travel"] if given.position_column else [x for x in POSITIONS if x in columns]
     for word, found in (("force", "force" in columns), ("position", position)):
         if not found:
-            raise file.error(
-                f"no column of {word} was recognised (headings: {known}); set `{word}_column`"
-            )
+            raise file.error(f"no column of {word} (headings: {known}); set `{word}_column`")
     if len(position) > 1:
         both = " and ".join(f'"{columns.name(name)}"' for name in position)
         raise file.error(f"two columns of position: {both}; set `position_column`")
@@ -202,7 +195,21 @@ def _from_table(file: LabFile, table: tables.Table, given: TackOptions, few: boo
     kind = heading.quantity if heading and heading.quantity in POSITIONS else "travel"
     time = columns.si("time") if "time" in columns else None
     keep = columns.keep.copy()
-    more = {"contact_radius": _contact_radius(columns), "temperature": _temperature(columns)}
+    more: dict[str, Array | None] = dict.fromkeys(("contact_radius", "temperature"))
+    if "contact_radius" in columns:
+        more["contact_radius"] = columns.si("contact_radius")
+    elif "contact_diameter" in columns:
+        more["contact_radius"] = columns.si("contact_diameter") / 2
+    elif "contact_area" in columns:
+        area = columns.si("contact_area")
+        if np.any(area < 0):
+            raise file.error(f"a contact area must not be negative, got {np.nanmin(area):g}")
+        more["contact_radius"] = np.sqrt(area / np.pi)
+    try:
+        kelvins = columns.temperature()
+        more["temperature"] = None if np.all(np.isnan(kelvins)) else kelvins
+    except InputError as error:
+        columns.notes.append(f"temperature not read: {error}")
     columns.refuse_contradiction("force", position[0], "time")
     # what differs along a test, such as its parts, is no state that is pooled
     columns.states = range(len(table.rows))
@@ -211,35 +218,9 @@ def _from_table(file: LabFile, table: tables.Table, given: TackOptions, few: boo
         columns.notes.append(f"{lost} rows without a number rejected")
     needed = 1 if few else _NEEDED
     if np.sum(keep) < needed:
-        raise file.error(
-            f"{np.sum(keep)} rows with a force and a position; at least {needed} are needed"
-        )
+        raise file.error(f"{np.sum(keep)} rows with force and position; {needed} are needed")
     if time is None:
         time = given.time_of(file, way, columns.notes)
     curve = Curve(time[keep], force[keep], way[keep], _INTO[kind])
     rows = {name: None if row is None else row[keep] for name, row in more.items()}
     return _record(file, curve, columns.notes, **rows)
-
-
-def _contact_radius(columns: Columns) -> Array | None:
-    """Return the contact radius [m] from a column of radius, diameter or area, or None."""
-    if "contact_radius" in columns:
-        return columns.si("contact_radius")
-    if "contact_diameter" in columns:
-        return columns.si("contact_diameter") / 2
-    if "contact_area" not in columns:
-        return None
-    area = columns.si("contact_area")
-    if np.any(area < 0):
-        raise columns.file.error(f"a contact area must not be negative, got {np.nanmin(area):g}")
-    return np.sqrt(area / np.pi)
-
-
-def _temperature(columns: Columns) -> Array | None:
-    """Return the temperature of each row [K], or None, with a note, where it is unknown."""
-    try:
-        kelvins = columns.temperature()
-    except InputError as error:
-        columns.notes.append(f"temperature not read: {error}")
-        return None
-    return None if np.all(np.isnan(kelvins)) else kelvins

@@ -71,18 +71,16 @@ class TackRecord:
         for name, (unit, most) in _LARGEST.items():
             row = array(name, getattr(self, name), unit, length)
             length = row.size
-            if not np.all(np.abs(row) <= most):
-                raise InputError(
-                    f"{name} must be finite and at most {most:g} {unit}, got {_worst(row):g}; "
-                    "check its unit"
-                )
+            wrong = row[~(np.abs(row) <= most)]
+            if wrong.size:
+                limit = f"{name} must be finite and at most {most:g} {unit}"
+                raise InputError(f"{limit}, got {wrong[0]:g}; check its unit")
             store(self, name, row)
         steps = np.diff(self.time)
         if np.any(steps < 0):
             at = int(np.argmin(steps))
-            raise InputError(
-                f"time must increase, but {self.time[at + 1]:g} s follows {self.time[at]:g} s"
-            )
+            after, before = self.time[at + 1], self.time[at]
+            raise InputError(f"time must increase, but {after:g} s follows {before:g} s")
         if self.into not in (-1, 0, 1):
             raise InputError(f"into must be 1, -1 or 0, got {self.into!r}")
         if not 0 <= self.compliance < np.inf:
@@ -97,11 +95,6 @@ class TackRecord:
 
     def __len__(self) -> int:
         return self.time.size
-
-
-def _worst(row: Array) -> float:
-    broken = row[~np.isfinite(row)]
-    return float(broken[0] if broken.size else row[np.argmax(np.abs(row))])
 
 
 _TURN = 0.1  # fraction of the range of depths
@@ -150,15 +143,10 @@ def depth_of(record: TackRecord, into: int = 0) -> Array:
         return sign * x
     low, high = x <= x.min() + _END * np.ptp(x), x > x.max() - _END * np.ptp(x)
     if low.sum() < 3 or high.sum() < 3:
-        raise InputError(
-            "fewer than three rows are at an end of the travel, too few to find the end in contact"
-        )
+        raise InputError("fewer than three rows at an end of the travel: which end is in contact?")
     below, above = (np.subtract(*np.percentile(F[part], (98, 2))) for part in (low, high))
     if max(below, above) < _ACTIVE * min(below, above):
-        raise InputError(
-            "the force changes equally at both ends of the travel; set `into` to + (larger is "
-            "deeper) or -"
-        )
+        raise InputError("the force changes alike at both ends; set `into`, + if larger is deeper")
     return x if above > below else -x
 
 
@@ -180,8 +168,7 @@ def segments(time: Array, depth: Array) -> list[Segments]:
         found.append(_cycle(time, depth, before, at, after))
     if not found:
         raise InputError(
-            f"no retraction: the drive never moves back by {_TURN:.0%} of its range; give all "
-            "intervals"
+            f"the drive never moves back by {_TURN:.0%}: no retraction; give all intervals"
         )
     return found
 
@@ -218,7 +205,15 @@ def _cycle(time: Array, depth: Array, before: int, at: int, after: int) -> Segme
     arrived = depth[retract : after + 1] <= depth[after] + 1e-9 * way
     end = retract + int(np.flatnonzero(arrived)[0]) + 1
     dwell = _knee(time, depth, before, at, retract)
-    return Segments(before, dwell, _departure(time, depth, dwell, at, retract, way), end)
+    # the dwell ends where the drive departs from its level by more than its scatter
+    lasted = time[retract] - time[dwell : retract + 1]
+    held = (lasted < 0.5 * lasted[0]) & (lasted > 0.1 * lasted[0])
+    # the drive may overshoot on arrival, so the deepest point is not the level
+    waited = depth[dwell : retract + 1][held]
+    level = float(np.median(waited)) if held.sum() >= 10 else depth[at]
+    noise = point_noise(depth[dwell:]) if depth.size > dwell + 2 else 0.0
+    last = np.flatnonzero(depth[at : retract + 1] >= level - 4 * noise - _STEP * way)
+    return Segments(before, dwell, at + int(last[-1]) if last.size else at, end)
 
 
 def _knee(time: Array, depth: Array, before: int, at: int, late: int) -> int:
@@ -235,17 +230,6 @@ def _knee(time: Array, depth: Array, before: int, at: int, late: int) -> int:
     lasted = max(time[late] - time[middle], 1e-300)
     chord = depth[middle] + (depth[late] - depth[middle]) * (t - time[middle]) / lasted
     return middle + int(np.argmax(d - chord))
-
-
-def _departure(time: Array, depth: Array, dwell: int, at: int, late: int, way: float) -> int:
-    """Return the last point of the dwell, from the drive's departure from its level."""
-    lasted = time[late] - time[dwell : late + 1]
-    held = (lasted < 0.5 * lasted[0]) & (lasted > 0.1 * lasted[0])
-    # the drive may overshoot on arrival, so the deepest point is not the level
-    level = float(np.median(depth[dwell : late + 1][held])) if held.sum() >= 10 else depth[at]
-    noise = point_noise(depth[dwell:]) if depth.size > dwell + 2 else 0.0
-    near = depth[at : late + 1] >= level - 4 * noise - _STEP * way
-    return at + int(np.flatnonzero(near)[-1]) if near.any() else at
 
 
 def force_sign(force: Array, cycles: list[Segments]) -> int:
@@ -271,13 +255,9 @@ def force_sign(force: Array, cycles: list[Segments]) -> int:
         larger = abs(pull) > _DISTINCT * abs(press)
         signs.add(int(-np.sign(pull) if larger else np.sign(press)))
     if not signs:
-        raise InputError(
-            "no force rises above its noise: there was no contact, or the force is another column"
-        )
+        raise InputError("no force rises above its noise: no contact, or another column")
     if len(signs) > 1:
-        raise InputError(
-            "the cycles disagree on the sign of a compression; set `compression` to + or -"
-        )
+        raise InputError("the cycles disagree on the sign of a compression; set `compression`")
     return signs.pop()
 
 

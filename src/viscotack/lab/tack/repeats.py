@@ -106,23 +106,18 @@ def pooled(forces: Sequence[npt.ArrayLike]) -> Repeats:
     variance = sum(float(np.sum((x - m) ** 2)) for x, m in zip(logs, means, strict=True))
     variance /= max(freedom, 1)
     for _ in range(_ROUNDS if variance else 0):
-        weights = [_weights(x - m, variance) for x, m in zip(logs, means, strict=True)]
-        rows = list(zip(logs, weights, strict=True))
-        means = [float(np.average(x, weights=w)) for x, w in rows]
-        squares = (float(w @ (x - m) ** 2) for (x, w), m in zip(rows, means, strict=True))
-        variance = sum(squares) / (_NORMAL * freedom)
+        shares = [max(1 - 1 / one.size, 0.5) for one in logs]  # a single one is its mean
+        away = [x - m for x, m in zip(logs, means, strict=True)]
+        weights = [
+            (_FREEDOM + 1) / (_FREEDOM + each**2 / (variance * share))
+            for each, share in zip(away, shares, strict=True)
+        ]
+        means = [float(np.average(x, weights=w)) for x, w in zip(logs, weights, strict=True)]
+        squares = (w @ (x - m) ** 2 for x, w, m in zip(logs, weights, means, strict=True))
+        variance = float(sum(squares)) / (_NORMAL * freedom)
     scatter = sqrt(variance)
-    return Repeats(
-        tuple(np.exp(means).tolist()), scatter, freedom, tuple(_far(x, scatter) for x in logs)
-    )
-
-
-def _weights(away: Array, variance: float) -> Array:
-    """Return the Student weight of each test at one speed."""
-    if away.size == 1:
-        return np.ones(1)
-    z2 = away**2 / (variance * (1 - 1 / away.size))
-    return (_FREEDOM + 1) / (_FREEDOM + z2)
+    far = tuple(_far(x, scatter) for x in logs)
+    return Repeats(tuple(np.exp(means).tolist()), scatter, freedom, far)
 
 
 def _far(logs: Array, scatter: float) -> tuple[int, ...]:
@@ -159,16 +154,14 @@ def same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
 
     Speeds within 3 % are equal, and temperatures as in :func:`same_temperatures`.
     """
-    return [group for same in same_temperatures(cycles) for group in _same_speeds(same)]
-
-
-def _same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
     groups: list[list[Cycle]] = []
-    for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
-        if groups and cycle.speed.value <= (1 + SAME) * groups[-1][0].speed.value:
+    for same in same_temperatures(cycles):
+        slowest = None
+        for cycle in sorted(same, key=lambda cycle: cycle.speed.value):
+            if slowest is None or cycle.speed.value > (1 + SAME) * slowest:
+                slowest = cycle.speed.value
+                groups.append([])
             groups[-1].append(cycle)
-        else:
-            groups.append([cycle])
     return groups
 
 
@@ -219,7 +212,8 @@ class Repeated:
     @property
     def force_deviation(self) -> float | None:
         """Standard deviation of the pull-off forces [N]; None for a single test."""
-        return _deviation([one.pull_off_force.value for one in self.cycles])
+        forces = [one.pull_off_force.value for one in self.cycles]
+        return float(np.std(forces, ddof=1)) if len(forces) > 1 else None
 
     @property
     def work(self) -> float:
@@ -229,7 +223,8 @@ class Repeated:
     @property
     def work_deviation(self) -> float | None:
         """Standard deviation of the works of separation [J]; None for a single test."""
-        return _deviation([one.work_of_separation.value for one in self.cycles])
+        works = [one.work_of_separation.value for one in self.cycles]
+        return float(np.std(works, ddof=1)) if len(works) > 1 else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,10 +276,18 @@ def speed_table(cycles: Sequence[Cycle], shift: Shift | None = None) -> SpeedTab
     groups = [same_speeds(same) for same in same_temperatures(cycles)]
     tests = [same for group in groups for same in group]
     found = pooled([[one.pull_off_force.value for one in same] for same in tests])
-    speeds = [
-        Repeated(tuple(same), tuple(same[i] for i in far), mean, _factor(same, shift))
-        for same, far, mean in zip(tests, found.far, found.means, strict=True)
-    ]
+    speeds = []
+    for same, far, mean in zip(tests, found.far, found.means, strict=True):
+        factor = None
+        if shift is not None:
+            temperature = temperature_of(same)
+            if temperature is None:
+                raise InputError(
+                    f"the speed of {same[0].source.path} cannot be shifted without its temperature;"
+                    " write it into the file or, with `temperature_in_name`, into its name"
+                )
+            factor = 10.0 ** float(shift.log10_shift(temperature))
+        speeds.append(Repeated(tuple(same), tuple(same[i] for i in far), mean, factor))
     rest = iter(speeds)
     series = tuple(tuple(islice(rest, len(group))) for group in groups)
     fitted = [(same[0].temperature, _exponent([x.speed for x in same], same)) for same in series]
@@ -298,19 +301,6 @@ def speed_table(cycles: Sequence[Cycle], shift: Shift | None = None) -> SpeedTab
     )
 
 
-def _factor(same: Sequence[Cycle], shift: Shift | None) -> float | None:
-    """Return a_T of tests at one temperature; None without a shift law."""
-    if shift is None:
-        return None
-    temperature = temperature_of(same)
-    if temperature is None:
-        raise InputError(
-            f"the temperature of {same[0].source.path} is unknown, so that its speed cannot be "
-            "shifted; write it into the file or, with `temperature_in_name`, into the file name"
-        )
-    return 10.0 ** float(shift.log10_shift(temperature))
-
-
 def jkr_work(force: float, radius: float) -> float:
     r"""Return the work of adhesion :math:`2F/(3\pi R)` [J/m2] of an elastic JKR sphere.
 
@@ -322,10 +312,6 @@ def jkr_work(force: float, radius: float) -> float:
     '0.1762 J/m2'
     """
     return force / float(jkr.pull_off_force(radius=radius, work_of_adhesion=1.0))
-
-
-def _deviation(values: Sequence[float]) -> float | None:
-    return float(np.std(values, ddof=1)) if len(values) > 1 else None
 
 
 def _exponent(speeds: Sequence[float], tests: Sequence[Repeated]) -> Measured | None:
