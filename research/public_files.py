@@ -413,11 +413,11 @@ def found(test, name):
 
 
 GIVEN = {
-    "--modulus-unit": ("modulus_unit", "Pa"),
-    "--time-unit": ("time_unit", "s"),
-    "--frequency-unit": ("frequency_unit", "rad/s"),
-    "--temperature-unit": ("temperature_unit", "degC"),
-    "--kind": ("kind", "G"),
+    "`modulus_unit`": ("modulus_unit", "Pa"),
+    "`time_unit`": ("time_unit", "s"),
+    "`frequency_unit`": ("frequency_unit", "rad/s"),
+    "`temperature_unit`": ("temperature_unit", "degC"),
+    "`kind`": ("kind", "G"),
 }
 
 

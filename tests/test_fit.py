@@ -17,7 +17,7 @@ from viscotack.lab.fit.fitting import _alike
 from viscotack.lab.fit.observed import observed
 from viscotack.lab.fit.power_law import fit_constants
 from viscotack.lab.fit.prony import fit_series
-from viscotack.lab.fit.report import Fitted, issued
+from viscotack.lab.fit.report import FitReport, issued
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
 from viscotack.model.materials.library import published
@@ -94,7 +94,14 @@ def test_best_finds_the_law_that_made_the_numbers():
 def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, chosen):
     solid = fractional_zener(1e6, 1e9, 0.5, 1e-3, 0.5)
     tried = [
-        Fitted(model=model, material=solid, scatter=0.01, criterion=criterion, constants=count)
+        FitReport(
+            observed=None,
+            model=model,
+            material=solid,
+            scatter=0.01,
+            criterion=criterion,
+            constants=count,
+        )
         for model, criterion, count in (
             ("fractional-zener", 10.0 + apart, 4),
             ("prony", 10.0, 14),

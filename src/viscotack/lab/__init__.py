@@ -4,11 +4,10 @@ from viscotack.model.materials.shift import FittedShift as ShiftFit
 
 from .fit.fitting import allow_for_shifts, fit
 from .fit.master_curve import contradiction, master_curve, superposed
-from .fit.one_temperature import at_one_temperature
 from .fit.report import FitReport, issued
 from .fit.shift_factors import shift_factors
 from .fit.shift_laws import fit_arrhenius, fit_wlf, nearest_law
-from .fit.superposition import superposition
+from .fit.superposition import at_one_temperature, superposition
 from .options import Options, TackOptions
 from .reading import (
     FORMATS,

@@ -142,7 +142,7 @@ def sheets_with_test(tables: Sequence[MaterialColumns]) -> tuple[str, set[str], 
     def score(columns: MaterialColumns) -> tuple[bool, bool, bool]:
         test = test_of(columns) if columns.table.rows else None
         sweeps = test is not None and (test != "dma" or _sweeps(columns))
-        return test is not None, sweeps, sweeps and not columns.lacking(*columns.quantities)
+        return test is not None, sweeps, sweeps and not columns.lacking()
 
     sheet = max(tables, key=score).table.sheet
     swept = [x for x in tables if x.table.rows and test_of(x) == "dma" and _sweeps(x)]
@@ -380,10 +380,7 @@ def refuse_stiffer_than_diamond(columns: MaterialColumns, *moduli: Array) -> Non
     """Raise an error if a modulus exceeds that of diamond, because its unit must be wrong."""
     for modulus in moduli:
         for row in np.flatnonzero(modulus > STIFFEST):
-            raise columns.error(
-                f"{modulus[row]:g} Pa exceeds the modulus of diamond; check its unit",
-                row,
-            )
+            raise columns.error(f"{modulus[row]:g} Pa exceeds diamond's; check its unit", row)
 
 
 def _agree(columns: MaterialColumns, storage: Array, loss: Array) -> None:
@@ -539,10 +536,8 @@ def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
     except InputError:
         return
     if np.isfinite(end).any() and 0 < np.nanmax(end) <= start:
-        raise columns.error(
-            f'"{columns.name("time")}" begins at {start:g} s, where the table before it ends: set '
-            f'`step_start` to "{np.nanmax(end):g} s"'
-        )
+        begins = f'"{columns.name("time")}" begins at {start:g} s, where the table before it ends'
+        raise columns.error(f'{begins}: set `step_start` to "{np.nanmax(end):g} s"')
 
 
 def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: str) -> None:
@@ -550,10 +545,8 @@ def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: s
     held = columns.held(quantity)
     left = int(np.count_nonzero(columns.keep & ~held))
     if 2 * left > np.count_nonzero(columns.keep):
-        raise columns.error(
-            f'{left} of {held.size} points of "{columns.name(quantity)}" are more than 5 % off '
-            f"its level; a {test} test needs a constant {quantity}"
-        )
+        off = f'{left} of {held.size} points of "{columns.name(quantity)}" are over 5 % off'
+        raise columns.error(f"{off} its level; a {test} test needs a constant {quantity}")
     if left:
         columns.notes.append(f"rejected {left} points: the {quantity} is over 5 % off its level")
     columns.keep &= held
@@ -562,8 +555,6 @@ def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: s
 def _log10(columns: MaterialColumns, quantity: str) -> Array:
     values = columns.numbers(quantity)
     for row in np.flatnonzero(values <= 0):
-        raise columns.error(
-            f'a shift factor must be positive, got {values[row]:g} in "{columns.name(quantity)}"',
-            row,
-        )
+        name = columns.name(quantity)
+        raise columns.error(f'a shift must be positive, got {values[row]:g} in "{name}"', row)
     return np.log10(values)

@@ -65,13 +65,45 @@ class Source:
         return replace(self, notes=(*self.notes, *notes))
 
 
+_UNITS = {
+    "angular_frequency": "rad/s", "time": "s", "storage": "Pa", "loss": "Pa", "modulus": "Pa",
+    "compliance": "1/Pa", "temperature": "K", "reference_temperature": "K", "sweep": "-",
+}  # fmt: skip
+
+
 class _Measured:
     """What all measurements have in common: a modulus, or its inverse, in tension or in shear."""
 
     measured: ClassVar[tuple[str, ...]]  # names of the numbers
+    along: ClassVar[str]  # their axis
+    sorts: ClassVar[bool] = True  # in ascending order of the axis
+    single: ClassVar[str] = ""  # name of a temperature of the whole measurement
     power: ClassVar[int] = 1  # of the modulus that they are
     kind: str
     source: Source
+
+    def __post_init__(self):
+        if self.kind not in KINDS:
+            raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {self.kind!r}")
+        axis = array(self.along, getattr(self, self.along), _UNITS[self.along])
+        order = np.argsort(axis, kind="stable") if self.sorts else np.arange(axis.size)
+        for name, unit in _UNITS.items():
+            value, single = getattr(self, name, None), name == self.single
+            if value is None:
+                continue
+            row = array(name, [value] if single else value, unit, 1 if single else axis.size)
+            if name == "sweep":
+                right, must = row == np.round(row), "whole numbers"
+            else:
+                unknown = np.isnan(row) & (name == "temperature" and not single)
+                right, must = (row > 0) & (row < np.inf) | unknown, f"positive and finite [{unit}]"
+            if not right.all():
+                cure = "; give Celsius + 273.15" if unit == "K" else ""
+                raise InputError(f"{name} must be {must}, got {row[~right][0]:g}{cure}")
+            if single:
+                object.__setattr__(self, name, float(row[0]))
+            else:
+                store(self, name, (row.astype(np.int64) if name == "sweep" else row)[order])
 
     def __len__(self) -> int:
         return getattr(self, self.measured[0]).size
@@ -101,6 +133,7 @@ class _Moduli(_Measured):
     """What sweeps and master curves have in common: storage and loss modulus."""
 
     measured: ClassVar = ("storage", "loss")
+    along: ClassVar = "angular_frequency"
     storage: Array
     loss: Array
 
@@ -151,6 +184,8 @@ class FrequencySweeps(_Moduli):
     [3000000.0, 6000000.0]
     """
 
+    sorts: ClassVar = False
+
     temperature: Array
     angular_frequency: Array
     storage: Array
@@ -158,23 +193,6 @@ class FrequencySweeps(_Moduli):
     kind: str
     sweep: Integers
     source: Source = Source()
-
-    def __post_init__(self):
-        check_kind(self.kind)
-        store_columns(self, "temperature", "angular_frequency", "storage", "loss")
-        store_whole(self, "sweep", self.sweep, self.storage.size)
-
-    @property
-    def ids(self) -> tuple[int, ...]:
-        """Sweep numbers, ascending."""
-        return tuple(int(number) for number in np.unique(self.sweep))
-
-    def at(self, sweep: int) -> "FrequencySweeps":
-        """Return one sweep, in ascending order of frequency."""
-        found = np.flatnonzero(self.sweep == sweep)
-        if not found.size:
-            raise InputError(f"no sweep {sweep}; available: {list(self.ids)}")
-        return self.chosen(found[np.argsort(self.angular_frequency[found], kind="stable")])
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,6 +225,8 @@ class MasterCurve(_Moduli):
     [1.0, 100.0]
     """
 
+    single: ClassVar = "reference_temperature"
+
     reference_temperature: float | None
     angular_frequency: Array
     storage: Array
@@ -217,26 +237,13 @@ class MasterCurve(_Moduli):
     temperature: Array | None = None
     sweep: Integers | None = None
 
-    def __post_init__(self):
-        check_kind(self.kind)
-        store_temperature(self, "reference_temperature")
-        known = () if self.temperature is None else ("temperature",)
-        store_columns(self, "angular_frequency", "storage", "loss", *known)
-        if self.sweep is not None:
-            store_whole(self, "sweep", self.sweep, self.storage.size)
-        sort_along(self, self.angular_frequency)
-
 
 class _StepTest(_Measured):
     """What relaxation and creep tests have in common: a number over the time since the step."""
 
+    along: ClassVar = "time"
+    single: ClassVar = "temperature"
     time: Array
-
-    def __post_init__(self):
-        check_kind(self.kind)
-        store_temperature(self, "temperature")
-        store_columns(self, "time", *self.measured)
-        sort_along(self, self.time)
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,21 +320,9 @@ class CreepTest(_StepTest):
 # ---- validated, read-only columns ----------------------------------------------------------------
 
 
-def check_kind(kind: Any) -> None:
-    """Raise an error unless the kind of modulus is "E" (tensile) or "G" (shear)."""
-    if kind not in KINDS:
-        raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
-
-
-def store_temperature(instance: Any, name: str) -> None:
-    """Store one temperature [K] as a float, or None where it is unknown."""
-    value = getattr(instance, name)
-    if value is None:
-        return
-    number = float(value)
-    if not 0 < number < np.inf:
-        raise InputError(f"{name} must be positive [K], got {value!r}; give Celsius + 273.15")
-    object.__setattr__(instance, name, number)
+def celsius(kelvin: float) -> str:
+    """Return a temperature [K] in Celsius, as text for people."""
+    return f"{kelvin - 273.15:.4g} C"
 
 
 def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None) -> Array:
@@ -340,47 +335,10 @@ def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None
     return row
 
 
-_UNITS = {
-    "temperature": "K", "angular_frequency": "rad/s", "storage": "Pa", "loss": "Pa", "time": "s",
-    "modulus": "Pa", "compliance": "1/Pa",
-}  # fmt: skip
-
-
-def store_columns(instance: Any, *names: str) -> None:
-    """Store positive read-only arrays of one length; a temperature may be nan (unknown)."""
-    length = None
-    for name in names:
-        unit, may_miss = _UNITS[name], name == "temperature"
-        row = array(name, getattr(instance, name), unit, length)
-        length = row.size
-        wrong = row[~((row > 0) & (row < np.inf) | (may_miss & np.isnan(row)))]
-        if wrong.size:
-            cure = "; give Celsius + 273.15" if unit == "K" else ""
-            raise InputError(f"{name} must be positive and finite [{unit}], got {wrong[0]:g}{cure}")
-        store(instance, name, row)
-
-
-def store_whole(instance: Any, name: str, values: npt.ArrayLike, length: int) -> None:
-    """Store a row of whole numbers as a read-only array."""
-    row = array(name, values, "-", length)
-    broken = row[row != np.round(row)]
-    if broken.size:
-        raise InputError(f"{name} must be whole numbers, got {broken[0]:g}")
-    store(instance, name, row.astype(np.int64))
-
-
 def store(instance: Any, name: str, row: npt.NDArray[Any]) -> None:
     """Store a read-only array."""
     row.flags.writeable = False
     object.__setattr__(instance, name, row)
-
-
-def sort_along(instance: Any, along: Array) -> None:
-    """Sort all columns of a curve in ascending order of one of them."""
-    order = np.argsort(along, kind="stable")
-    for name, values in vars(instance).items():
-        if isinstance(values, np.ndarray):
-            store(instance, name, values[order])
 
 
 # K least difference between two sweeps; chambers hold the temperature within a few tenths
@@ -429,7 +387,12 @@ def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[n
     if not np.isnan(temperature).any() and np.unique(pairs, axis=1).shape[1] == clusters.size:
         how = "temperature"
     else:
-        clusters, how = _runs(angular_frequency), "frequency reversal"
+        how, direction = "frequency reversal", 0.0
+        clusters = np.zeros(temperature.size, dtype=np.int64)
+        for i, step in enumerate(np.sign(np.diff(angular_frequency)), start=1):
+            reverses = step * direction < 0
+            clusters[i] = clusters[i - 1] + reverses
+            direction = 0.0 if reverses else step or direction
     # numbered in the order of the file
     _, first, numbers = np.unique(clusters, return_index=True, return_inverse=True)
     numbers = np.argsort(np.argsort(first))[numbers]
@@ -441,21 +404,6 @@ def levels(temperature: Array) -> list[npt.NDArray[np.int64]]:
     """Return the indices of the points of each temperature, from cold to hot."""
     order = np.argsort(temperature, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(temperature[order]) > GAP) + 1)
-
-
-def _runs(angular_frequency: Array) -> npt.NDArray[np.int64]:
-    """Return the number of the monotonic run of frequencies that each point belongs to."""
-    numbers = np.zeros(angular_frequency.size, dtype=np.int64)
-    direction = 0.0
-    for i in range(1, numbers.size):
-        step = np.sign(angular_frequency[i] - angular_frequency[i - 1])
-        numbers[i] = numbers[i - 1]
-        if step * direction < 0:
-            numbers[i] += 1
-            direction = 0.0
-        elif step:
-            direction = step
-    return numbers
 
 
 def refuse_unlike(sweeps: FrequencySweeps) -> None:
@@ -473,7 +421,7 @@ def refuse_unlike(sweeps: FrequencySweeps) -> None:
         off = y[inside] - np.interp(x[inside], u, v)
         apart, scatter = abs(float(np.median(off))), float(np.std(off))
         if apart > max(np.log1p(_UNLIKE), 3 * scatter / np.sqrt(off.size)):
-            where = "unknown temperature" if np.isnan(T) else f"{T - 273.15:.4g} C"
+            where = "unknown temperature" if np.isnan(T) else celsius(T)
             raise InputError(
                 f"{sweeps.source.path or 'the sweeps'}: sweeps at {where} differ by "
                 f"{100 * np.expm1(apart):.2g} %: several samples, states or unstated "

@@ -432,7 +432,7 @@ class _OfTheory(Reduced):
         return v, {"amplification": np.asarray(law.amplification(v, material=solid))}
 
     def _of_table(self, caller: Caller) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        from viscotack.lab.reading import read_dma
+        from viscotack.lab import master_curve, read_dma
         from viscotack.theory import tabulated_modulus
 
         if given := self.given:
@@ -444,12 +444,12 @@ class _OfTheory(Reduced):
             getattr(tabulated_modulus, f"{of}{name}") for name in ("amplification", "speed_range")
         )
         table = read_dma(caller.file(self.modulus_table), kind="E")
-        if len(table.ids) > 1:
+        if np.ptp(table.sweep):
             raise InputError(
                 "`modulus_table` has several sweeps; give one master curve, as `viscotack material "
                 "fit` makes it"
             )
-        curve = table.at(min(table.ids))
+        curve = master_curve(table, reference_temperature=None)
         modulus = tabulated_modulus.TabulatedModulus(
             self.rubbery_modulus,
             *(tuple(x.tolist()) for x in (curve.angular_frequency, curve.storage, curve.loss)),

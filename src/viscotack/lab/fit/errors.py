@@ -129,7 +129,17 @@ class Errors:
             Of the interval from -half to half, in (0, 1).
         """
         deviations = np.sqrt([np.diag(V) for V in self._covariances(influences)]).T
-        return np.array([self._quantile(each, level) for each in deviations])
+        far = float(student.ppf((1 + level) / 2, self.degrees)) * (1 + 1e-9)
+        half = np.max(deviations, axis=1) * far
+        for i in np.flatnonzero(half):
+            each = np.maximum(deviations[i], 1e-12 * half[i] / far)
+
+            def excess(q: float, each: Array = each) -> float:
+                inside = 2 * student.cdf(q / each, self.degrees) - 1
+                return float(np.sum(self.weights * inside)) - level
+
+            half[i] = brentq(excess, 0.0, half[i], xtol=1e-6 * half[i])
+        return half
 
     def covariance(self, influences: Array) -> Array:
         """Return the covariance of quantities, shape (Q, Q)."""
@@ -170,20 +180,6 @@ class Errors:
             s**2 * influences @ self.rows.covariance(form) @ influences.T
             for form, s in zip(self.forms, self.scales, strict=True)
         ]
-
-    def _quantile(self, deviations: Array, level: float) -> float:
-        largest = float(np.max(deviations))
-        if largest <= 0:
-            return 0.0
-        deviations = np.maximum(deviations, 1e-12 * largest)
-
-        def excess(q: float) -> float:
-            inside = 2 * student.cdf(q / deviations, self.degrees) - 1
-            return float(np.sum(self.weights * inside)) - level
-
-        far = largest * float(student.ppf((1 + level) / 2, self.degrees)) * (1 + 1e-9)
-        found: object = brentq(excess, 0.0, far, xtol=1e-6 * far)
-        return float(found)  # pyright: ignore[reportArgumentType]
 
 
 def errors(data: Observed, residuals: Array, slopes: Array) -> Errors:
@@ -257,22 +253,17 @@ def _likelihood(rows: Rows, r: Array, J: Array, count: Array, form: _Form) -> tu
     own = np.diag(rows.covariance(replace(form, sweep=0.0, drift=0.0)))
     # the mean of n errors has 1/n of the variance
     V[np.diag_indices_from(V)] += own * (1 / count - 1)
-    rest, log_V, log_J = _projected(V, r, J)
-    degrees = max(r.size - J.shape[1], 1)
-    likelihood = -0.5 * (log_V + log_J + degrees * np.log(max(rest, 1e-300)))
-    return likelihood, float(np.sqrt(rest / degrees))
-
-
-def _projected(V: Array, r: Array, J: Array) -> tuple[float, float, float]:
-    """Return r^T P r, ln |V| and ln |J^T V^-1 J|."""
     factor = cho_factor(V, lower=True)
     solved = cho_solve(factor, np.column_stack((r, J)))
     normal = J.T @ solved[:, 1:]
-    right = J.T @ solved[:, 0]
     # neighbouring arms are nearly collinear: the pseudo-inverse drops what is undetermined
     value, vector = np.linalg.eigh((normal + normal.T) / 2)
     kept = value > 1e-12 * max(float(value[-1]), 1e-300)
-    part = vector[:, kept].T @ right
-    rest = float(r @ solved[:, 0] - np.sum(part**2 / value[kept]))
+    part = vector[:, kept].T @ (J.T @ solved[:, 0])
+    # r^T P r, ln |V| and ln |J^T V^-1 J|
+    rest = max(float(r @ solved[:, 0] - np.sum(part**2 / value[kept])), 0.0)
     log_V = 2 * float(np.sum(np.log(np.diag(factor[0]))))
-    return max(rest, 0.0), log_V, float(np.sum(np.log(value[kept])))
+    log_J = float(np.sum(np.log(value[kept])))
+    degrees = max(r.size - J.shape[1], 1)
+    likelihood = -0.5 * (log_V + log_J + degrees * np.log(max(rest, 1e-300)))
+    return likelihood, float(np.sqrt(rest / degrees))

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import MasterCurve
+from viscotack.lab.sweeps import MasterCurve, celsius
 from viscotack.model.materials import Prony
 from viscotack.model.materials.passport import LIQUID
 from viscotack.model.materials.shift import TabulatedShift
@@ -24,7 +24,7 @@ from viscotack.units import readable
 from .observed import Data, Observed, observed, only, thinned
 from .power_law import KINDS, fit_constants, fitted_constants
 from .prony import NAMES, change, fit_series, open_ends, with_noise
-from .report import ALIKE, FitReport, Fitted, Interval
+from .report import ALIKE, FitReport, Interval
 
 # Ratio of a plateau to the measured moduli above which the law extrapolates.
 _BEYOND = 1.25
@@ -39,12 +39,13 @@ _FLOWS = 3.0
 _FLOWING = 0.8
 
 
-def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
+def undetermined(found: FitReport) -> tuple[str, ...]:
     """Return sentences on undetermined constants and on the ends of the measured range."""
+    data, material = found.observed, found.material
     words = []
     # constants of a model that has failed mean nothing
-    failed = scatter_of(data, material) > _MISSED
-    for each in () if failed else [each for each in intervals if not each.known]:
+    failed = scatter_of(found) > _MISSED
+    for each in () if failed else [each for each in found.intervals if not each.known]:
         if each.name in NAMES:
             if each.told or each.name in open_ends(data, material):
                 words += _plateau(data, material, each)
@@ -60,9 +61,12 @@ def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...])
     return tuple(words)
 
 
-def misfit_cautions(data: Observed, found: Fitted) -> tuple[str, ...]:
-    """Return sentences on a poor fit and on correlated residuals."""
-    words, missed = [], scatter_of(data, found.material)
+def cautions(found: FitReport, arms: int | None) -> list[str]:
+    """Return sentences on a poor fit, on correlated residuals, and on the arms of a series.
+
+    `arms` is their number if it was given.
+    """
+    data, words, missed = found.observed, [], scatter_of(found)
     if missed > _MISSED:
         words.append(
             f"this model does not describe the measurement, off by a factor of {np.exp(missed):.2g}"
@@ -77,47 +81,34 @@ def misfit_cautions(data: Observed, found: Fitted) -> tuple[str, ...]:
         )
     if found.shared:
         words.append(f"{found.shared}; the intervals are widened accordingly")
-    return tuple(words)
+    numbers = data.values.size
+    if arms is not None and numbers >= 6:
+        free, few = fit_series(data), len(found.material.branches)
+        many, best = len(free.material.branches), scatter_of(free)
+        if few < many and missed >= 1.1 * best:
+            worst = float(np.max(np.abs(np.expm1(-found.residuals))))
+            words.append(
+                f"the error of {few} arms is {100 * missed:.2g} % and at most {100 * worst:.2g} %; "
+                f"the best number, {many}, has {100 * best:.2g} %"
+            )
+    if found.model == "prony" and found.draws:
+        unknown, steps = 2 * found.grid + 1, np.diff(np.log10(data.at))
+        if unknown > numbers:
+            words.append(
+                f"{found.grid} arms have {unknown} constants for {numbers} numbers: between the "
+                "points the series is not determined"
+            )
+        if np.max(steps) > _GAP:
+            words.append(
+                f"points are up to {np.max(steps):.2g} decades apart: in gaps beyond a decade the "
+                "series rises in steps that were not measured; a power law interpolates smoothly"
+            )
+    return words
 
 
-def scatter_of(data: Observed, material: Any) -> float:
+def scatter_of(found: FitReport) -> float:
     """Return the root mean square of ln(measured/fitted)."""
-    return float(np.sqrt(np.mean(data.weighed(data.residuals(material)) ** 2)))
-
-
-def series_cautions(data: Observed, found: Fitted) -> tuple[str, ...]:
-    """Return sentences on too many arms and on gaps between points."""
-    words = []
-    arms, numbers = found.grid, data.values.size
-    if 2 * arms + 1 > numbers:
-        words.append(
-            f"{arms} arms have {2 * arms + 1} constants for {numbers} numbers: between the points "
-            "the series is not determined"
-        )
-    steps = np.diff(np.log10(data.at))
-    if np.max(steps) > _GAP:
-        words.append(
-            f"points are up to {np.max(steps):.2g} decades apart: in gaps beyond a decade the "
-            "series rises in steps that were not measured; a power law interpolates smoothly"
-        )
-    return tuple(words)
-
-
-def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
-    """Return sentences on the accuracy lost by a given small number of arms."""
-    few = len(found.material.branches)
-    if data.values.size < 6:
-        return ()
-    free = fit_series(data)
-    many, own = len(free.material.branches), scatter_of(data, found.material)
-    best = scatter_of(data, free.material)
-    if few >= many or own < 1.1 * best:
-        return ()
-    worst = float(np.max(np.abs(np.expm1(-data.residuals(found.material)))))
-    return (
-        f"the error of {few} arms is {100 * own:.2g} % and at most {100 * worst:.2g} %; the best "
-        f"number, {many}, has {100 * best:.2g} %",
-    )
+    return float(np.sqrt(np.mean(found.observed.weighed(found.residuals) ** 2)))
 
 
 def flow(data: Observed, material: Any) -> str:
@@ -251,7 +242,7 @@ def fit(
     Fitting the rounded moduli of a standard solid recovers its constants:
 
     >>> import numpy as np
-    >>> from viscotack.lab.sweeps import MasterCurve
+    >>> from viscotack.lab.sweeps import MasterCurve, celsius
     >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
@@ -274,70 +265,53 @@ def fit(
     seen = observed(data, poisson_ratio=poisson_ratio)
     if not loss:
         seen = only(seen, "storage")
+    constants = {each: 3 if each in ("sls", "prony") else 4 for each in MODELS}
+    affordable = [each for each in MODELS if seen.values.size > constants[each] + 3]
+    if model == "best" and not affordable:
+        raise InputError(f"{seen.values.size} numbers are too few to compare models; name one")
     with one_blas_thread():
         seen = with_noise(thinned(seen))
         # without intervals, which only the model that is used needs
         tried = [
             fit_series(seen) if each == "prony" else fitted_constants(seen, model=each, known={})
-            for each in (_affordable(seen) if model == "best" else ())
+            for each in (affordable if model == "best" else ())
         ]
         alike = _alike(tried)
         if alike:
             model = alike[0].model
-        cautions: tuple[str, ...] = ()
         more = {"level": level, "draws": draws, "seed": seed}
         if model == "prony":
             found = fit_series(seen, arms=arms, **more)
-            if arms is not None:
-                cautions = few_arms_caution(seen, found)
-            if draws:
-                cautions += series_cautions(seen, found)
         else:
             found = fit_constants(seen, model=model, known=known or {}, **more)
         if tried:
             found = replace(found, compared=tuple((one.model, one.criterion) for one in tried))
-        cautions = (*misfit_cautions(seen, found), *cautions)
-        unknown = undetermined(seen, found.material, found.intervals)
-        return FitReport(
-            **vars(found),
-            observed=seen,
-            level=level,
-            undetermined=(*unknown, *_undecided(alike)),
-            cautions=(*cautions, *seen.source.notes[-1:]) if seen.points else cautions,
-        )
+        words = (*cautions(found, arms), *seen.source.notes[-1:] * bool(seen.points))
+        unknown = (*undetermined(found), *_undecided(alike))
+        return replace(found, level=level, undetermined=unknown, cautions=words)
 
 
-def _alike(tried: Sequence[Fitted]) -> list[Fitted]:
+def _alike(tried: Sequence[FitReport]) -> list[FitReport]:
     """Return the models that the data do not distinguish from the best, the simplest first."""
     least = min((one.criterion for one in tried), default=0.0)
     alike = [one for one in tried if one.criterion <= least + ALIKE]
     return sorted(alike, key=lambda one: (one.constants, one.criterion))
 
 
-def _undecided(alike: Sequence[Fitted]) -> tuple[str, ...]:
+def _undecided(alike: Sequence[FitReport]) -> tuple[str, ...]:
     """Return a sentence on the models that the data do not distinguish, with their plateaus."""
     if len(alike) < 2:
         return ()
-    least = min(one.criterion for one in alike)
-    each = [
-        f"{one.model} ({one.constants} constants, criterion {one.criterion - least:+.1f}; "
-        f"rubbery {readable(one.material.rubbery_modulus, 'Pa', digits=3)}, glassy "
-        f"{readable(one.material.glassy_modulus, 'Pa', digits=3)})"
-        for one in alike
-    ]
+    least, each = min(one.criterion for one in alike), []
+    for one in alike:
+        ends = (one.material.rubbery_modulus, one.material.glassy_modulus)
+        rubbery, glassy = (readable(end, "Pa", digits=3) for end in ends)
+        above = f"{one.constants} constants, criterion {one.criterion - least:+.1f}"
+        each.append(f"{one.model} ({above}; rubbery {rubbery}, glassy {glassy})")
     return (
         f"the data do not distinguish {' from '.join(each)}; the one with the fewest constants is "
         "used; name another model to fit it",
     )
-
-
-def _affordable(data: Observed) -> list[str]:
-    """Return the models with fewer constants than numbers."""
-    constants = {model: 3 if model in ("sls", "prony") else 4 for model in MODELS}
-    found = [model for model in MODELS if data.values.size > constants[model] + 3]
-    if not found:
-        raise InputError(f"{data.values.size} numbers are too few to compare models; name one")
-    return found
 
 
 _DRAWS = 12
@@ -385,23 +359,36 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
     if data.temperature is None or not np.any(shifts.uncertainty):
         return report
     rng = np.random.default_rng(0)
-    found = [_refitted(report, _moved(data, shifts, rng)) for _ in range(_DRAWS)]
+    seen, known = report.observed, {x.name: x.value for x in report.intervals if x.known}
+    found = []
+    for _ in range(_DRAWS):
+        moved = observed(_moved(data, shifts, rng), poisson_ratio=seen.poisson_ratio)
+        if len(seen.parts) == 1:
+            moved = only(moved, seen.parts[0])
+        moved = replace(moved, noise=seen.noise)
+        if isinstance(report.material, Prony):
+            found.append(fit_series(moved, arms=len(report.material.branches)).material)
+        else:
+            found.append(fitted_constants(moved, model=report.model, known=known).material)
     quantile = NormalDist().inv_cdf((1 + report.level) / 2)
     intervals, more = [], 1.0
     for each in report.intervals:
         logs = np.log([getattr(solid, each.name) for solid in found])
-        wider = quantile * float(np.std(logs, ddof=1))
-        intervals.append(_wider(each, wider))
+        wider, low, high = quantile * float(np.std(logs, ddof=1)), each.low, each.high
+        # in quadrature; an unbounded side stays unbounded
+        if not each.known and low > 0:
+            low = float(each.value * np.exp(-np.hypot(np.log(each.value / low), wider)))
+        if not each.known and np.isfinite(high):
+            high = float(each.value * np.exp(np.hypot(np.log(high / each.value), wider)))
+        intervals.append(replace(each, low=low, high=high))
         if each.bounded and not each.known and each.high > each.low:
-            last = intervals[-1]
-            more = max(more, float(np.log(last.high / last.low) / np.log(each.high / each.low)))
+            more = max(more, float(np.log(high / low) / np.log(each.high / each.low)))
     cautions = report.cautions
     if more > _WORTH:
         worst = int(np.argmax(shifts.uncertainty))
-        cautions = (
-            *cautions,
+        cautions += (
             f"the uncertainty of the shifts, {shifts.uncertainty[worst]:.2g} decades at "
-            f"{shifts.temperature[worst] - 273.15:.4g} C, widens intervals by up to a factor of "
+            f"{celsius(shifts.temperature[worst])}, widens intervals by up to a factor of "
             f"{more:.2g}, but not the band",
         )
     return replace(report, intervals=tuple(intervals), cautions=cautions)
@@ -423,28 +410,3 @@ def _moved(curve: MasterCurve, shifts: TabulatedShift, rng: np.random.Generator)
             before = i
     moved = np.interp(curve.temperature, shifts.temperature, error)
     return replace(curve, angular_frequency=curve.angular_frequency * 10**moved)
-
-
-def _refitted(report: FitReport, curve: MasterCurve) -> Any:
-    seen = observed(curve, poisson_ratio=report.observed.poisson_ratio)
-    if len(report.observed.parts) == 1:
-        seen = only(seen, report.observed.parts[0])
-    else:
-        seen = replace(seen, noise=report.observed.noise)
-    if isinstance(report.material, Prony):
-        arms = len(report.material.branches)
-        return fit_series(seen, arms=arms).material
-    known = {each.name: each.value for each in report.intervals if each.known}
-    return fitted_constants(seen, model=report.model, known=known).material
-
-
-def _wider(each: Interval, wider: float) -> Interval:
-    """Add another error to an interval in quadrature; an unbounded side stays unbounded."""
-    if each.known:
-        return each
-    low, high = each.low, each.high
-    if low > 0:
-        low = each.value * np.exp(-np.hypot(np.log(each.value / low), wider))
-    if np.isfinite(high):
-        high = each.value * np.exp(np.hypot(np.log(high / each.value), wider))
-    return replace(each, low=float(low), high=float(high))

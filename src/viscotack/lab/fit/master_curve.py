@@ -14,7 +14,6 @@ wrong, but one that violates it has a wrong shift, a faulty sweep or a complianc
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
@@ -33,7 +32,7 @@ from viscotack.lab.sweeps import (
 from viscotack.model.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
 from .prony import nonnegative
-from .shift_factors import THERMOMETER, curve, shift_factors, shifts_between, temperature_levels
+from .shift_factors import curve, shift_factors, shifts_between, temperature_levels
 
 _CAUSAL = 0.03  # Kramers-Kronig misfit within the accuracy of rheometers
 _CLEARLY = 0.8  # ratio of misfits that counts as clearly better
@@ -296,17 +295,28 @@ def superposed(
     >>> len(curve), [round(value, 1) for value in shifts.values]
     (40, [0.0, -1.0])
     """
-    ordered = _ordered(tests)
+    if not tests:
+        raise InputError("superposition needs one or more tests, got none")
+    kinds = {f"{type(test).__name__} ({test.kind})" for test in tests}
+    if len(kinds) > 1:
+        raise InputError(f"tests must be of one kind, got {' and '.join(sorted(kinds))}")
+    unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
+    if unknown:
+        raise InputError(f"the temperature of {unknown[0]} is unknown; set `temperature`")
+    ordered = sorted(tests, key=lambda test: test.temperature or 0.0)
+    temperature = np.array([test.temperature for test in ordered], dtype=float)
+    close = np.flatnonzero(np.diff(temperature) <= GAP)
+    if close.size:
+        twice = temperature[close[0]]
+        raise InputError(f"two tests have the same temperature, {twice:.2f} K; superpose one")
     first, (column,) = ordered[0], ordered[0].measured
     sign = first.power  # a compliance is the inverse of a modulus
-    temperature = np.array([test.temperature for test in ordered], dtype=float)
     if shift is None:
         curves = [
             curve(T, -np.log10(test.time[::-1]), sign * np.log10(getattr(test, column)[::-1]))
             for T, test in zip(temperature, ordered, strict=True)
         ]
-        more = "both", vertical, THERMOMETER
-        shift = shifts_between(temperature, curves, reference_temperature, *more)
+        shift = shifts_between(temperature, curves, reference_temperature, "both", vertical)
         how = f"shifts from the overlap of the tests, {_moving(vertical)}"
     else:
         how = _named(shift)
@@ -322,23 +332,6 @@ def superposed(
         **{column: np.concatenate([getattr(t, column) * 10 ** (sign * v) for t, _, v in rows])},
     )
     return answer, table
-
-
-def _ordered(tests: Sequence[Test]) -> list[Test]:
-    """Return the tests from cold to hot, all of one kind and each at its own temperature."""
-    if not tests:
-        raise InputError("superposition needs one or more tests, got none")
-    kinds = {f"{type(test).__name__} ({test.kind})" for test in tests}
-    if len(kinds) > 1:
-        raise InputError(f"tests must be of one kind, got {' and '.join(sorted(kinds))}")
-    unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
-    if unknown:
-        raise InputError(f"the temperature of {unknown[0]} is unknown; set `temperature`")
-    ordered = sorted(tests, key=lambda test: test.temperature or 0.0)
-    for one, other in pairwise(float(test.temperature or 0.0) for test in ordered):
-        if other - one <= GAP:
-            raise InputError(f"two tests have the same temperature, {one:.2f} K; superpose one")
-    return ordered
 
 
 _PER_DECADE = 5.0  # relaxation times; a time between grid points causes a 3 % error of loss

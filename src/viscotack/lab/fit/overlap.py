@@ -135,7 +135,10 @@ def free_vertical(colder: Curve, hotter: Curve) -> tuple[float, float]:
 
 def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
     """Return the best shift and the degree of the common polynomial."""
-    low, high = _range(colder, hotter)
+    # two points, and a fifth of the shorter curve, overlap at least
+    length = min(np.ptp(colder.x), np.ptp(hotter.x))
+    least = length * max(0.2, 1 / (min(colder.x.size, hotter.x.size) - 1)) + 1e-9
+    low, high = colder.x[0] + least - hotter.x[-1], colder.x[-1] - least - hotter.x[0]
     tried = np.linspace(low, high, max(5, int((high - low) / _COARSE) + 1))
     costs = np.full((len(_DEGREES), tried.size), np.inf)
     for row, degree in enumerate(_DEGREES):
@@ -177,21 +180,16 @@ def _refined(
         tried = found + spacing * np.arange(-5.0, 6.0)
         costs = _costs(_pair(a, b, tried, hold, hold.free, degree), _ROUNDS)
         # too few points for this degree: not usable
-        if np.isfinite(costs).any():
-            found = _lowest(tried, costs)
+        if not np.isfinite(costs).any():
+            continue
+        i = int(np.argmin(costs))
+        found = float(tried[i])
+        if 0 < i < tried.size - 1:
+            # the minimum of a parabola through the lowest costs
+            left, middle, right = costs[i - 1 : i + 2]
+            bend = left - 2 * middle + right
+            found += float(spacing * (left - right) / (2 * bend)) if bend > 0 else 0.0
     return found
-
-
-def _lowest(tried: Array, costs: Array) -> float:
-    """Return the minimum of a parabola through the lowest of evenly spaced costs."""
-    i = int(np.argmin(costs))
-    if not 0 < i < tried.size - 1:
-        return float(tried[i])
-    left, middle, right = costs[i - 1 : i + 2]
-    bend = left - 2 * middle + right
-    if not bend > 0:
-        return float(tried[i])
-    return float(tried[i] + (tried[1] - tried[0]) * (left - right) / (2 * bend))
 
 
 def _without_blocks(a: Curve, b: Curve, found: float, hold: Hold, degree: int) -> Array:
@@ -206,13 +204,6 @@ def _without_blocks(a: Curve, b: Curve, found: float, hold: Hold, degree: int) -
         enough = min(one.x.size, other.x.size) >= 2
         shifts.append(_refined(one, other, found, hold, degree, _ROUGH) if enough else found)
     return np.array(shifts)
-
-
-def _range(a: Curve, b: Curve) -> tuple[float, float]:
-    """Return the range of shifts at which two points, and a fifth of the shorter curve, overlap."""
-    length = min(np.ptp(a.x), np.ptp(b.x))
-    least = length * max(0.2, 1 / (min(a.x.size, b.x.size) - 1)) + 1e-9
-    return a.x[0] + least - b.x[-1], a.x[-1] - least - b.x[0]
 
 
 @dataclass(frozen=True)

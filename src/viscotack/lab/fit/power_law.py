@@ -30,7 +30,7 @@ from viscotack.model.materials.modes import reciprocal
 
 from .errors import errors
 from .observed import Observed
-from .report import Fitted, Interval, rated
+from .report import FitReport, Interval, rated
 
 _POOR = 0.25  # half-width of the interval of ln(constant) above which the profile is computed
 
@@ -262,7 +262,7 @@ def quick(data: Observed, solid: Any, at: Array) -> Array:
 
 def fit_constants(
     data: Observed, *, model: str, known: Mapping[str, float], level: float, draws: int, seed: int
-) -> Fitted:
+) -> FitReport:
     """Fit a power law or a standard solid to measured numbers.
 
     Parameters
@@ -315,7 +315,7 @@ def fit_constants(
     )
 
 
-def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> Fitted:
+def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> FitReport:
     """Return the fitted solid and its number of constants, without intervals."""
     search = Search.of(data, model, known)
     return rated(data, model, search.solid(search.minimum().x), len(search.free))

@@ -40,7 +40,7 @@ from viscotack.model.materials.modes import maxwell
 
 from .errors import Errors, errors
 from .observed import Observed, only
-from .report import Fitted, Interval, information_criterion, rated
+from .report import FitReport, Interval, information_criterion, rated
 
 # Iterations per amplitude. Columns of neighbouring times are nearly parallel, so the active set
 # changes often: half of the noisy sweeps need more than the usual 3, and none that converges more
@@ -73,11 +73,7 @@ def nonnegative(columns: npt.NDArray, numbers: Array) -> Array:
     try:
         return nnls(columns, numbers, maxiter=_PATIENCE * columns.shape[1])[0]
     except RuntimeError:
-        return _reflected(columns, numbers)
-
-
-def _reflected(columns: npt.NDArray, numbers: Array) -> Array:
-    """Return the amplitudes by the reflective trust region, which always converges."""
+        pass
     size = np.linalg.norm(columns, axis=0)
     size[size == 0] = 1.0
     found = lsq_linear(columns / size, numbers, bounds=(0, np.inf), tol=1e-13, max_iter=500).x
@@ -196,7 +192,7 @@ _FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) relative to
 
 def fit_series(
     data: Observed, *, arms: int | None = None, level: float = 0.9, draws: int = 0, seed: int = 0
-) -> Fitted:
+) -> FitReport:
     """Fit a Prony series to measured numbers.
 
     Parameters
@@ -221,7 +217,13 @@ def fit_series(
         grids = [_grid(data, n) for n in counts if n + 3 < data.values.size]
         if not grids:
             raise InputError(f"{data.values.size} numbers are too few to choose `arms`; give them")
-        criteria = [_criterion(data, *_fitted(data, grid, data.logs)) for grid in grids]
+        criteria = []
+        for grid in grids:
+            times, weights = _fitted(data, grid, data.logs)
+            logs = np.log(np.maximum(_basis(data, times) @ weights, 1e-300))
+            off = data.weighed((data.logs - logs).reshape(data.values.shape))
+            each = information_criterion(off, weights.size + 1, floor=_REPEATABLE)
+            criteria.append(each if times.size else float("inf"))
         chosen = grids[int(np.argmin(criteria))]
         order = np.argsort(criteria)[:4]
         compared = [(f"{grids[i].size} arms", criteria[i]) for i in sorted(order)]
@@ -249,11 +251,14 @@ def fit_series(
     basis = _basis(data, times)
     slopes = basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
     known = errors(data, data.weighed(data.residuals(material)), slopes)
+    noise = known.drawn(draws, np.random.default_rng(seed)) * np.repeat(data.noise, data.at.size)
+    logs = np.log(basis @ weights)
+    again = [_fitted(data, times, logs + each) for each in noise]
     return replace(
         found,
         shared=known.words(),
         intervals=_plateaus(data, material, times, weights, known, level, seed),
-        draws=_bootstrap(data, times, weights, known, draws, seed),
+        draws=tuple(_material(data, *each) for each in again if each[0].size),
     )
 
 
@@ -372,27 +377,6 @@ def _material(data: Observed, times: Array, weights: Array) -> Prony:
             arms, glassy_modulus=1 / weights[0], poisson_ratio=data.poisson_ratio
         )
     return Prony(rubbery_modulus=weights[0], branches=arms, poisson_ratio=data.poisson_ratio)
-
-
-def _criterion(data: Observed, times: Array, weights: Array) -> float:
-    if times.size == 0:
-        return float("inf")
-    logs = np.log(np.maximum(_basis(data, times) @ weights, 1e-300))
-    residuals = data.weighed((data.logs - logs).reshape(data.values.shape))
-    return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
-
-
-def _bootstrap(
-    data: Observed, times: Array, weights: Array, known: Errors, count: int, seed: int
-) -> tuple[Prony, ...]:
-    logs = np.log(_basis(data, times) @ weights)
-    noise = known.drawn(count, np.random.default_rng(seed)) * np.repeat(data.noise, data.at.size)
-    found = []
-    for each in noise:
-        kept, drawn = _fitted(data, times, logs + each)
-        if kept.size:
-            found.append(_material(data, kept, drawn))
-    return tuple(found)
 
 
 def _plateaus(

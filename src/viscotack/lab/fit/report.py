@@ -75,56 +75,16 @@ class Interval:
         return f"{line}  (not bounded)"
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Fitted:
-    """A fitted solid with the intervals of its constants and sampled solids.
-
-    Attributes
-    ----------
-    model : str
-        "power-law", "relaxation-power-law", "sls", "fractional-zener" or "prony".
-    material : Material
-        The fitted solid, tensile.
-    intervals : tuple of Interval
-        Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
-    scatter : float
-        Standard deviation of ln(measured/fitted), corrected for the number of constants.
-    shared : str
-        Correlation of the errors in words; empty for independent errors or if not computed.
-    constants : int
-        Number of fitted constants.
-    criterion : float
-        Corrected Akaike information criterion; inf with too few numbers.
-    draws : tuple of Material
-        Solids sampled from the uncertainty of the fit, for bands and to propagate the uncertainty
-        to predictions.
-    compared : tuple of (str, float)
-        Alternatives that were fitted, with the criterion of each.
-    grid : int
-        For a Prony series, the number of relaxation times tried.
-    """
-
-    model: str
-    material: Any
-    scatter: float
-    constants: int
-    criterion: float
-    intervals: tuple[Interval, ...] = ()
-    draws: tuple[Any, ...] = ()
-    compared: tuple[tuple[str, float], ...] = ()
-    grid: int = 0
-    shared: str = ""
-
-
 def rated(
     data: Observed, model: str, material: Any, constants: int, *, chosen: int = 0, **more: Any
-) -> Fitted:
+) -> "FitReport":
     """Return a fitted solid with its scatter and criterion.
 
     `chosen` counts constants of the criterion only, `more` are other fields of the fit.
     """
     residuals = data.weighed(data.residuals(material))
-    return Fitted(
+    return FitReport(
+        observed=data,
         model=model,
         material=material,
         scatter=float(np.sqrt(np.sum(residuals**2) / max(residuals.size - constants, 1))),
@@ -150,15 +110,36 @@ def information_criterion(residuals: Array, constants: int, *, floor: float = 0.
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FitReport(Fitted):
+class FitReport:
     """A material fitted to a measurement, returned by :func:`viscotack.lab.fit`.
 
     Attributes
     ----------
     observed : Observed
         Fitted numbers.
+    model : str
+        "power-law", "relaxation-power-law", "sls", "fractional-zener" or "prony".
+    material : Material
+        The fitted solid, tensile.
+    scatter : float
+        Standard deviation of ln(measured/fitted), corrected for the number of constants.
+    constants : int
+        Number of fitted constants.
+    criterion : float
+        Corrected Akaike information criterion; inf with too few numbers.
     level : float
         Confidence level of the intervals and of `band`.
+    intervals : tuple of Interval
+        Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
+    draws : tuple of Material
+        Solids sampled from the uncertainty of the fit, for bands and to propagate the uncertainty
+        to predictions.
+    compared : tuple of (str, float)
+        Alternatives that were fitted, with the criterion of each.
+    grid : int
+        For a Prony series, the number of relaxation times tried.
+    shared : str
+        Correlation of the errors in words; empty for independent errors or if not computed.
     undetermined : tuple of str
         Sentences on constants and ranges that the measurement does not determine.
     cautions : tuple of str
@@ -166,9 +147,19 @@ class FitReport(Fitted):
     """
 
     observed: Observed
-    level: float
-    undetermined: tuple[str, ...]
-    cautions: tuple[str, ...]
+    model: str
+    material: Any
+    scatter: float
+    constants: int
+    criterion: float
+    level: float = 0.9
+    intervals: tuple[Interval, ...] = ()
+    draws: tuple[Any, ...] = ()
+    compared: tuple[tuple[str, float], ...] = ()
+    grid: int = 0
+    shared: str = ""
+    undetermined: tuple[str, ...] = ()
+    cautions: tuple[str, ...] = ()
 
     @property
     def residuals(self) -> Array:

@@ -40,7 +40,6 @@ def shift_factors(
     reference_temperature: float,
     by: str = "both",
     vertical: str | float = "none",
-    temperature_uncertainty: float = THERMOMETER,
 ) -> TabulatedShift:
     """Compute the shift of each temperature from the overlap of neighbouring sweeps.
 
@@ -60,17 +59,15 @@ def shift_factors(
         the data determine it, with a common size of all steps as prior; "free", each step
         independently; or a coefficient of volume expansion [1/K], which gives the shift by density
         and temperature of rubber elasticity.
-    temperature_uncertainty : float
-        Standard uncertainty of the temperature of each sweep [K].
 
     Returns
     -------
     TabulatedShift
         With the standard deviation of each shift relative to the reference. It includes the scatter
         of points and of blocks of points about the common curve, vertical shifts of the size seen
-        in the data, even where none was allowed, and the thermometer; with two moduli also the
-        difference to the shifts by both moduli with vertical shifts. It does not include the error
-        for a solid that does not superpose; see :func:`viscotack.lab.superposition`.
+        in the data, even where none was allowed, and 0.2 K of the thermometer; with two moduli also
+        the difference to the shifts by both moduli with vertical shifts. It does not include the
+        error for a solid that does not superpose; see :func:`viscotack.lab.superposition`.
 
     Raises
     ------
@@ -101,8 +98,7 @@ def shift_factors(
     """
     temperature, each = temperature_levels(sweeps)
     curves = level_curves(temperature, each)
-    more = by, vertical, temperature_uncertainty
-    return shifts_between(temperature, curves, reference_temperature, *more)
+    return shifts_between(temperature, curves, reference_temperature, by, vertical)
 
 
 def shifts_between(
@@ -111,7 +107,6 @@ def shifts_between(
     reference: float,
     by: str,
     vertical: str | float,
-    temperature_uncertainty: float,
 ) -> TabulatedShift:
     """Compute the shift of each curve, in frequency or in time; see :func:`shift_factors`.
 
@@ -122,20 +117,20 @@ def shifts_between(
     curves : sequence of Curve, M
         All measured moduli, over log10 of frequency or minus log10 of time.
     """
-    vertical = _checked_vertical(vertical)
+    if vertical not in _VERTICAL:
+        if isinstance(vertical, bool | str) or not 0 <= float(vertical) < 0.01:
+            raise InputError(
+                f"vertical must be one of {', '.join(_VERTICAL)}, or a volume expansion from 0 to "
+                f"0.01 1/K, got {vertical!r}"
+            )
+        vertical = float(vertical)
     if by not in BY:
-        raise InputError(f"by must be 'both', 'storage', 'loss' or 'tan', got {by!r}")
-    if not 0 <= temperature_uncertainty < 50:
-        raise InputError(
-            f"temperature_uncertainty must lie in [0, 50) K, got {temperature_uncertainty:g}"
-        )
+        raise InputError(f"by must be one of {', '.join(BY)}, got {by!r}")
     if len(curves) < 2:
         raise InputError(f"a shift needs two or more temperatures; {_LAW}")
     if not temperature[0] - GAP <= reference <= temperature[-1] + GAP:
-        raise InputError(
-            f"`reference_temperature` must lie between {temperature[0]:.2f} and "
-            f"{temperature[-1]:.2f} K, got {reference:g} K; beyond, {_LAW}"
-        )
+        ends = f"{temperature[0]:.2f} and {temperature[-1]:.2f} K, got {reference:g} K"
+        raise InputError(f"`reference_temperature` must lie between {ends}; beyond, {_LAW}")
     steps = steps_between(temperature, curves, by, vertical)
     shift, up, deviation = _summed(steps, temperature, reference)
     # change of each shift for an error of 1 K in its or the reference temperature
@@ -143,7 +138,7 @@ def shifts_between(
     inside = float(np.clip(reference, temperature[0], temperature[-1]))
     kelvin = np.hypot(slope, np.interp(inside, temperature, slope))
     kelvin = np.where(np.abs(temperature - inside) <= GAP, 0.0, kelvin)
-    uncertainty = np.hypot(deviation, temperature_uncertainty * kelvin)
+    uncertainty = np.hypot(deviation, THERMOMETER * kelvin)
     if (by, vertical) != BEST and len(curves[0].y) > 1:
         # the uncertainty includes the difference to the shifts from all moduli
         try:
@@ -242,18 +237,6 @@ _USUAL = 0.02  # decades, 5 %: usual effect of gap, clamp and rubber elasticity 
 _SPREADS = np.geomspace(1e-4, 0.3, 80)  # decades
 
 
-def _checked_vertical(vertical: str | float) -> str | float:
-    """Return an item of _VERTICAL or an expansion coefficient [1/K]; raise an error otherwise."""
-    if isinstance(vertical, str) and vertical in _VERTICAL:
-        return vertical
-    if isinstance(vertical, bool | str) or not 0 <= float(vertical) < 0.01:
-        raise InputError(
-            f"vertical must be one of {', '.join(_VERTICAL)}, or a volume expansion from 0 to "
-            f"0.01 1/K, got {vertical!r}"
-        )
-    return float(vertical)
-
-
 def _holds(
     vertical: str | float, temperature: Array, pairs: Sequence[tuple[Curve, Curve]]
 ) -> list[Hold]:
@@ -262,7 +245,7 @@ def _holds(
     Parameters
     ----------
     vertical : str or float
-        Output of :func:`_checked_vertical`.
+        A word of :func:`shift_factors`, or a coefficient of volume expansion [1/K].
     temperature : ndarray, shape (n + 1,)
         Of the curves [K], ascending.
     pairs : sequence of (Curve, Curve), n

@@ -110,15 +110,13 @@ class Columns:
             # instruments head columns of waves and temperatures that they did not measure
             if table.rows and not any(row[index] for _, row in table.rows):
                 continue
-            if self._may_be(heading):
+            kind = getattr(options, "kind", None)
+            if not (kind and heading.kind and heading.kind != kind):
                 self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
         # of each row: what was measured, such as temperature and frequency; set by the reader
         self.states: Sequence[Any] = ()
         self._chosen: dict[str, _Place] = {}
-
-    def _may_be(self, heading: Heading) -> bool:
-        return True
 
     def _chosen_by_caller(self) -> dict[str, _Place]:
         """Return the columns that the caller names by heading or number, if the table has them."""
@@ -142,11 +140,6 @@ class Columns:
             kind, base = (heading.kind, heading.base) if heading else (None, None)
             found[quantity] = index, Heading(quantity, kind, own or unit, base)
         return found
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Quantities of the recognised columns."""
-        return tuple(self._found)
 
     @property
     def columns_in_use(self) -> set[int]:
@@ -279,10 +272,8 @@ class Columns:
                 continue
             for name in targeted:
                 if not same_unit(self._unit(name), unit):
-                    raise self.error(
-                        f'"{self.name(name)}" is in {bare(self._unit(name))}, but '
-                        f"`{UNIT_OPTIONS[target][0]}` is {unit}"
-                    )
+                    stated = f'"{self.name(name)}" is in {bare(self._unit(name))}'
+                    raise self.error(f"{stated}, but `{UNIT_OPTIONS[target][0]}` is {unit}")
 
     @contextmanager
     def _located(self, quantity: str, row: SupportsIndex | None = None) -> Iterator[None]:
@@ -297,7 +288,17 @@ class Columns:
     def temperature(self) -> Array:
         """Return the temperature of each row [K]; nan where the file states none."""
         if "temperature" not in self:
-            stated = self.table.temperature if not self.table.label else self._labelled()
+            stated, text = self.table.temperature, self.table.label
+            if text:
+                match = _TEMPERATURE.fullmatch(text.replace(",", "."))
+                if match is None:
+                    raise self.error(f"{text!r} above the columns is no temperature such as 20 °C")
+                try:
+                    # `lacking` has already rejected a label without a unit
+                    unit = match[2] or self.options.temperature_unit or ""
+                    stated = in_kelvin(float(match[1]), unit)
+                except InputError as error:
+                    raise self.error(str(error)) from None
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
         unit = self._unit("temperature")
         unit = self.options.unit("K") if no_unit(unit) else unit
@@ -313,18 +314,6 @@ class Columns:
                 possible(kelvins[row])
         self.notes += doubtful_temperature(kelvins, offset == 0.0)
         return kelvins
-
-    def _labelled(self) -> float:
-        """Return the temperature in the label above the columns of this table [K]."""
-        text = self.table.label
-        match = _TEMPERATURE.fullmatch(text.replace(",", "."))
-        if match is None:
-            raise self.error(f"{text!r} above the columns is not a temperature such as '20 °C'")
-        try:
-            # `lacking` has already rejected a label without a unit
-            return in_kelvin(float(match[1]), match[2] or self.options.temperature_unit or "")
-        except InputError as error:
-            raise self.error(str(error)) from None
 
     # ---- one of several columns ----------------------------------------------------------------
 
@@ -350,15 +339,12 @@ class Columns:
             if not np.any(apart > 1):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
             elif far(other) > far(first):
-                self.notes.append(
-                    f'"{names[0]}" is the temperature; "{names[1]}" differs by up to '
-                    f"{np.nanmax(apart) * _SAME_TEMPERATURE:.3g} K and is not used"
-                )
+                worst = f"{np.nanmax(apart) * _SAME_TEMPERATURE:.3g} K"
+                unused = f'"{names[1]}" differs by up to {worst} and is not used'
+                self.notes.append(f'"{names[0]}" is the temperature; {unused}')
             else:
-                chosen = self.words.choose(quantity, first[0] + 1)
-                raise self.error(
-                    f'two columns of {quantity}: "{names[0]}" and "{names[1]}"; {chosen}'
-                )
+                both = f'two columns of {quantity}, "{names[0]}" and "{names[1]}"'
+                raise self.error(f"{both}; choose one by {self.words.columns}")
         self._chosen[quantity] = first
         return first
 
@@ -388,9 +374,6 @@ class MaterialColumns(Columns):
     def __init__(self, file: LabFile, table: Table, options: Options):
         super().__init__(file, table, options, MATERIAL)
 
-    def _may_be(self, heading: Heading) -> bool:
-        return not (self.options.kind and heading.kind and heading.kind != self.options.kind)
-
     def kind(self, *quantities: str) -> str | None:
         """Return the kind of modulus stated by headings, neighbouring columns or text, or None."""
         headings = [h for q in quantities for _, h in self._found.get(q, [])]
@@ -408,8 +391,9 @@ class MaterialColumns(Columns):
         return kind
 
     def lacking(self, *quantities: str) -> list[str]:
-        """Return the missing units and labels of columns, each with the option that sets it."""
+        """Return what the units and labels of columns, or of all, lack, with the cure."""
         found: dict[str, list[str]] = {}
+        quantities = quantities or tuple(self._found)
         for quantity in quantities:
             target = UNITS.get(quantity, "1")
             unknown = quantity in self and no_unit(self._unit(quantity))
@@ -419,10 +403,8 @@ class MaterialColumns(Columns):
         label = _TEMPERATURE.fullmatch(self.table.label.replace(",", "."))
         unknown = label and not (label[2] or self.options.temperature_unit)
         if "temperature" in quantities and unknown:
-            lacking.append(
-                f"whether {self.table.label!r} above the columns is a temperature in C or K "
-                f"({_cure('K')})"
-            )
+            words = f"whether {self.table.label!r} above the columns is a temperature in C or K"
+            lacking.append(f"{words} ({_cure('K')})")
         return lacking
 
     def angular_frequency(self) -> Array:
@@ -441,9 +423,8 @@ class MaterialColumns(Columns):
             own, alien = (f'"{self.name(name)}"' for name in names)
             apart, near = np.abs(omega - other), 0.01 * np.abs(omega)
             for row in np.flatnonzero(apart > near + digits[0] + digits[1]):
-                raise self.error(
-                    f"{own} is {omega[row]:g} rad/s but {alien} gives {other[row]:g} rad/s", row
-                )
+                both = f"{own} is {omega[row]:g} rad/s but {alien} gives {other[row]:g} rad/s"
+                raise self.error(both, row)
             if np.any(apart > near):
                 if not np.nanmedian(digits[0]) < np.nanmedian(digits[1]):
                     omega, own, alien = other, alien, own
@@ -496,14 +477,11 @@ def refuse_pooled(read: Sequence[Columns]) -> None:
         tells_apart = text or sample or place
         if len(values) < 2 or counts or not tells_apart or _STATUS.search(name):
             continue
-        by_state: dict[Any, set[str]] = {}
-        for cell, state in cells:
-            if cell:
-                by_state.setdefault(state, set()).add(cell)
-        if sample or any(len(each) > 1 for each in by_state.values()):
-            first = next(iter(values))
+        pairs = {(state, cell) for cell, state in cells if cell}
+        if sample or len(pairs) > len({state for state, _ in pairs}):
+            first, *others = values
+            some = ", ".join([first, *others[:4], *["..."] * (len(others) > 4)])
             raise read[0].file.error(
-                f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
-                f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
-                f'choose one by `where`, such as "{heading}={first}"'
+                f'column "{heading}" tells several samples or states apart ({some}); choose one by '
+                f'`where`, such as "{heading}={first}"'
             )

@@ -154,13 +154,12 @@ def _temperature(text: str) -> Heading | None:
     """Return the heading of any temperature, such as ``T_sample``, ``Ofentemperatur [°C]``."""
     name, unit, mark = _without_degree(text)
     beside = _beside_temperature(name)
-    if _NO_TEMPERATURE.search(plain(name)):
-        return None
-    # "A/C" is a ratio
-    if unit and (mark is not _SLASH or len(unit) > 1 or beside is not None):
-        return Heading("temperature", None, unit)
     known = beside is not None and beside in (*_OF_SAMPLE, *_OF_ROOM, *_OF_RIG, "s")
-    return Heading("temperature", None, "") if known and not unit else None
+    # "A/C" is a ratio
+    stated = unit and (mark is not _SLASH or len(unit) > 1 or beside is not None)
+    if _NO_TEMPERATURE.search(plain(name)) or not (stated or (known and not unit)):
+        return None
+    return Heading("temperature", None, unit)
 
 
 def _without_degree(text: str) -> tuple[str, str, re.Pattern[str] | None]:
@@ -479,11 +478,6 @@ class Vocabulary(NamedTuple):
     suffice: Callable[[set[str]], bool]
     usual: str
     columns: str
-    choose: Callable[[str, int], str]
-
-    def known(self, row: Sequence[str]) -> set[str]:
-        """Return the quantities that a row names."""
-        return {found.quantity for cell in row if (found := self.recognise(cell, "")) is not None}
 
     def heads(self, row: Sequence[str], names: Sequence[str] = ()) -> bool:
         """Return whether a row heads a table, or names the columns given by the caller."""
@@ -496,7 +490,8 @@ class Vocabulary(NamedTuple):
             return bool(words or self.heads(row)) and are_columns(numbers, row)
         # a label with a colon describes the test, unless two quantities follow
         row = row[1:] if row and row[0].rstrip().endswith(":") else row
-        return self.suffice(self.known(row))
+        known = (self.recognise(cell, "") for cell in row)
+        return self.suffice({heading.quantity for heading in known if heading is not None})
 
 
 def are_columns(numbers: Sequence[str], row: Sequence[str]) -> bool:
@@ -510,17 +505,10 @@ MATERIAL = Vocabulary(
     lambda found: len(found) > 1,
     "\"f, E', E'', T\"",
     '`columns`, such as "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
-    lambda quantity, number: f'choose one by `columns`, such as "{quantity}={number}"',
 )
 TACK = Vocabulary(
     recognise_tack,
     lambda found: "force" in found and bool(found & {*POSITIONS, "time"}),
     '"Time [s], Gap [mm], Normal Force [N]"',
     "`time_column`, `position_column` and `force_column`, with their units",
-    lambda quantity, number: (
-        "which of them is that of the sample is unknown"
-        if quantity == "temperature"
-        else f"choose one by `{'position' if quantity in POSITIONS else quantity}_column`, such as "
-        f"{number}"
-    ),
 )

@@ -16,7 +16,6 @@ from viscotack.errors import InputError
 from .file import LabFile
 from .headings import (
     WORDS,
-    Heading,
     Vocabulary,
     bare,
     in_kelvin,
@@ -184,12 +183,10 @@ def _stacked(table: Table, words: Vocabulary) -> list[Table]:
             starts = [i for i, key in enumerate(keys) if not i or key != keys[i - 1]]
         else:
             starts = [i for i, cell in enumerate(cells) if cell in _ONE]
-        ends = [*starts[1:], len(cells)]
-        if len(starts) < 2 or starts[0]:
+        # numbers that begin again in each row are those of samples, not of points
+        if len(starts) < 2 or starts[0] or any(b - a < 2 for a, b in pairwise(starts)):
             continue
-        if any(b - a < 2 for a, b in pairwise(starts)):  # numbers of samples, not of points
-            continue
-        parts = [table.rows[a:b] for a, b in zip(starts, ends, strict=True)]
+        parts = [table.rows[a:b] for a, b in pairwise([*starts, len(cells)])]
         if all(_counts([row[counter] for _, row in part if row[counter]]) for part in parts):
             return [
                 replace(table, rows=part, notes=(*table.notes, f"part {i} of {len(parts)}"))
@@ -281,22 +278,21 @@ def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
     found = set()
     for row in rows:
         text = "\t".join(cell.strip() for cell in row).strip("\t# ")
-        match, number = _LABELLED.fullmatch(text), _ALONE.fullmatch(text)
-        heading = match and _temperature(match[1])
-        number = _STATED.fullmatch(match[2]) if match and heading else number
+        match, number, heading = _LABELLED.fullmatch(text), _ALONE.fullmatch(text), None
+        if match:
+            # "Test temperature (°C)" is that of the test
+            first, _, rest = match[1].strip().partition(" ")
+            heading = recognise(rest if first.casefold() in _OF_TEST else match[1])
+        if match and heading and heading.quantity == "temperature":
+            number = _STATED.fullmatch(match[2])
+        else:
+            heading = None
         if not number:
             continue
         unit = number[2].strip() or (heading.unit if heading else "")
         with suppress(InputError):
             found.add(in_kelvin(float(number[1].replace(",", ".")), unit))
     return found.pop() if len(found) == 1 else None
-
-
-def _temperature(label: str) -> Heading | None:
-    """Return the heading of a temperature of the test, such as ``Test temperature (°C)``."""
-    first, _, rest = label.strip().partition(" ")
-    heading = recognise(rest if first.casefold() in _OF_TEST else label)
-    return heading if heading is not None and heading.quantity == "temperature" else None
 
 
 # ---- temperatures in the names of files ---

@@ -28,10 +28,8 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
         return None
     # keep numbers as written, so that damaged ones are detected as in text files
     text = "\n".join(file.lines) + file.rest
-    return list(_tables(file, json.loads(text, parse_float=str, parse_int=str)))
-
-
-def _tables(file: LabFile, record: dict[str, Any]) -> Iterator[Table]:
+    record = json.loads(text, parse_float=str, parse_int=str)
+    found: list[Table] = []
     words = " ".join(_geometry(record))
     results = record.get("Experiment", record).get("Results")
     if not results:
@@ -42,8 +40,8 @@ def _tables(file: LabFile, record: dict[str, Any]) -> Iterator[Table]:
             names = [column["name"] for column in columns]
             units = [column.get("unit") or "" for column in columns]
             rows = [(i, list(map(_text, row))) for i, row in enumerate(data["values"], start=1)]
-            yield tabulated(file, MATERIAL, names, units, rows, words=words)
-        return
+            found.append(tabulated(file, MATERIAL, names, units, rows, words=words))
+        return found
     # prefer original to user-processed results, as TRIOS does
     section = results.get("Original") or results.get("Processed") or results
     headers = section["ColumnHeaders"]
@@ -57,14 +55,11 @@ def _tables(file: LabFile, record: dict[str, Any]) -> Iterator[Table]:
     for step in steps.values():
         # drop columns that the step did not measure
         own = [key for key in headers if any(cells[key] for _, cells in step)]
-        yield tabulated(
-            file,
-            MATERIAL,
-            [headers[key].get("DisplayName") or key for key in own],
-            [(headers[key].get("Unit") or {}).get("Name") or "" for key in own],
-            [(number, [cells[key] for key in own]) for number, cells in step],
-            words=words,
-        )
+        names = [headers[key].get("DisplayName") or key for key in own]
+        units = [(headers[key].get("Unit") or {}).get("Name") or "" for key in own]
+        rows = [(number, [cells[key] for key in own]) for number, cells in step]
+        found.append(tabulated(file, MATERIAL, names, units, rows, words=words))
+    return found
 
 
 def _text(cell: Any) -> str:

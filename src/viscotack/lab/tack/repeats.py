@@ -282,10 +282,8 @@ def speed_table(cycles: Sequence[Cycle], shift: Shift | None = None) -> SpeedTab
         if shift is not None:
             temperature = temperature_of(same)
             if temperature is None:
-                raise InputError(
-                    f"the speed of {same[0].source.path} cannot be shifted without its temperature;"
-                    " write it into the file or, with `temperature_in_name`, into its name"
-                )
+                unknown = f"the temperature of {same[0].source.path} is unknown, for a shift"
+                raise InputError(f"{unknown}; write it there, or set `temperature_in_name`")
             factor = 10.0 ** float(shift.log10_shift(temperature))
         speeds.append(Repeated(tuple(same), tuple(same[i] for i in far), mean, factor))
     rest = iter(speeds)
