@@ -278,7 +278,11 @@ def _part(columns: MaterialColumns, form: tuple[str, str]) -> FrequencySweeps:
             f"a loss tangent of {tangent:.2g} is that of no solid; check both units"
         )
     columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
-    values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
+    rows = np.column_stack([column[keep] for column in values.values()])
+    _, first = np.unique(rows, axis=0, return_index=True)
+    if first.size < len(rows):
+        columns.notes.append(f"{len(rows) - first.size} repeated rows removed")
+    values = dict(zip(values, rows[np.sort(first)].T, strict=True))
     if "sweep" not in values:
         numbers, how = grouped(values["temperature"], values["angular_frequency"])
         values["sweep"] = numbers.astype(float)
@@ -341,15 +345,6 @@ def kind_of(columns: MaterialColumns, moduli: Sequence[str], *beside: str) -> st
     return said or given or ""
 
 
-def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict[str, Array]:
-    """Remove rows that repeat an earlier row exactly."""
-    rows = np.column_stack(list(values.values()))
-    _, first = np.unique(rows, axis=0, return_index=True)
-    if first.size < len(rows):
-        columns.notes.append(f"{len(rows) - first.size} repeated rows removed")
-    return {name: column[np.sort(first)] for name, column in values.items()}
-
-
 def temperatures(columns: MaterialColumns) -> Array:
     """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
     temperature, given = columns.temperature(), columns.options.temperature
@@ -386,32 +381,28 @@ def refuse_stiffer_than_diamond(columns: MaterialColumns, *moduli: Array) -> Non
 def _agree(columns: MaterialColumns, storage: Array, loss: Array) -> None:
     """Raise an error if tan(delta) or |E*| contradicts the storage and loss modulus of its row."""
     digits = [columns.resolution(name) * columns.factor(name) for name in ("storage", "loss")]
-    sizes = np.hypot(storage, loss)
+    others: list[tuple[str, float, Array, Array]] = []
     if "tan_delta" in columns:
         with np.errstate(divide="ignore", invalid="ignore"):
             tangent = loss / storage
             slack = (digits[1] + np.abs(tangent) * digits[0]) / np.abs(storage)
-        _same(columns, "tan_delta", 1.0, tangent, slack)
+        others.append(("tan_delta", 1.0, tangent, slack))
     if "magnitude" in columns and not columns.lacking("magnitude"):
-        _same(columns, "magnitude", columns.factor("magnitude"), sizes, digits[0] + digits[1])
-
-
-def _same(
-    columns: MaterialColumns, name: str, factor: float, expected: Array, slack: Array
-) -> None:
-    found = factor * columns.numbers(name, needed=False)
-    slack = slack + factor * columns.resolution(name)
-    off = np.abs(found - expected)
-    for row in np.flatnonzero(off > slack + _DAMAGED * np.abs(expected)):
-        said = f'"{columns.name(name)}" is {found[row]:g}'
-        raise columns.error(f"{said}, but the moduli give {expected[row]:g}; check its unit", row)
-    rows = np.flatnonzero(off > slack + _TOLERANCE * np.abs(expected))
-    if rows.size:
-        worst = float(np.max(off[rows] / np.abs(expected[rows])))
-        columns.notes.append(
-            f'"{columns.name(name)}" differs by up to {100 * worst:.2g} % from that of storage and '
-            "loss modulus, as where an instrument averages it over cycles; it is not used"
-        )
+        size = np.hypot(storage, loss)
+        others.append(("magnitude", columns.factor("magnitude"), size, digits[0] + digits[1]))
+    for name, factor, expected, slack in others:
+        found = factor * columns.numbers(name, needed=False)
+        off = np.abs(found - expected) - slack - factor * columns.resolution(name)
+        for row in np.flatnonzero(off > _DAMAGED * np.abs(expected)):
+            said = f'"{columns.name(name)}" is {found[row]:g}, but the moduli give'
+            raise columns.error(f"{said} {expected[row]:g}; check its unit", row)
+        rows = np.flatnonzero(off > _TOLERANCE * np.abs(expected))
+        if rows.size:
+            worst = float(np.max(np.abs(found / expected - 1)[rows]))
+            columns.notes.append(
+                f'"{columns.name(name)}" differs by up to {100 * worst:.2g} % from that of storage '
+                "and loss modulus, as where an instrument averages it over cycles; it is not used"
+            )
 
 
 # ---- step tests and shift factors ----------------------------------------------------------------

@@ -16,7 +16,7 @@ from . import assembly
 from .assembly import Opened, sheets_with_test, test_of
 from .formats import reptate, text, trios_json, workbook
 from .formats.columns import MaterialColumns
-from .formats.file import LabFile, first_fitting, load
+from .formats.file import first_fitting, load
 from .formats.headings import MATERIAL
 from .formats.tables import Table, kelvin_in_name, pieces, where
 from .options import Options
@@ -199,39 +199,25 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> Tabulat
 
 
 def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any]) -> list[Opened]:
-    """Open one or more files, each with the temperature given by the caller."""
+    """Open one or more files."""
     given = replace(options, **more)
+    given.check_format(FORMATS)
     paths = [path] if isinstance(path, str | PathLike) else list(path)
     if not paths:
         raise InputError("no file to read; give one or more paths")
-    opened = []
-    for one in paths:
-        file, tables = _tables(one, given)
-        own = given
-        if given.temperature_in_name:
-            own = replace(given, temperature=kelvin_in_name(file), temperature_in_name=False)
-        opened.append(Opened(file, tables, own))
-    return opened
+    return [_open(one, given) for one in paths]
 
 
-def _tables(path: Path, given: Options) -> tuple[LabFile, list[Table]]:
-    file = load(path)
-    given.check_format(FORMATS)
-    file, whole = first_fitting(file, FORMATS, given.format, MATERIAL, given.names)
-    said = () if given.format is not None else (f"detected format: {file.format}",)
-    cut = () if file.format == "trios-json" else file.left_out
+def _open(path: Path, given: Options) -> Opened:
+    """Open the table chosen by the caller, or those of the sheet that has a test."""
+    file, whole = first_fitting(load(path), FORMATS, given.format, MATERIAL, given.names)
+    notes = [] if given.format is not None else [f"detected format: {file.format}"]
+    notes += [*file.notes, *(() if file.format == "trios-json" else file.left_out)]
     # a file of no format has raised the error of plain tables
     parts = [part for table in whole or () for part in pieces(table, MATERIAL)]
     pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
-    numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
-    tables, others = _selected(file, where(file, numbered, given.where), given)
-    return replace(file, notes=(*said, *file.notes, *cut, *others)), tables
-
-
-def _selected(
-    file: LabFile, tables: list[Table], given: Options
-) -> tuple[list[Table], tuple[str, ...]]:
-    """Return the table chosen by the caller, or those of the sheet that has a test, and notes."""
+    tables = [replace(table, number=i, before=before) for i, (table, before) in pairs]
+    tables = where(file, tables, given.where)
     if given.table is not None:
         places = "; ".join(f"{table.number}: {table.place}" for table in tables)
         tables = [each for each in tables if str(given.table) in (each.sheet, str(each.number))]
@@ -239,27 +225,24 @@ def _selected(
             raise file.error(f"no `table` {given.table!r}; the file has {places}")
     columns = [MaterialColumns(file, table, given) for table in tables]
     if lost := set(given.names).intersection(*(each.lost for each in columns)):
-        raise file.error(
-            f"no column {min(lost)!r}; the headings are {Opened(file, tables, given).headings}"
-        )
-    if not tables:
-        return tables, ()
-    first, read, alike = sheets_with_test(columns)
-    chosen = [table for table in tables if table.sheet in read]
-    others = dict.fromkeys(table.sheet for table in tables if table.sheet not in read)
-    notes = []
-    which = (
-        f"sheet {first!r} is read" if len(read) == 1 else f"{len(read)} sheets of sweeps are read"
-    )
-    if others:
-        listed = ", ".join(map(repr, others))
-        notes.append(f"{which}, {listed} are not; choose another by its name")
-    elif len(read) > 1:
-        names = dict.fromkeys(table.sheet for table in chosen)
-        notes.append(f"{which}: {', '.join(map(repr, names))}")
-    if alike:
-        notes.append(
-            f"{len(alike) + 1} sheets hold sweeps, and only {first!r} is read, because their "
-            "temperatures are unknown or the same; save each as a file, or write a temperature"
-        )
-    return chosen, tuple(notes)
+        headings = Opened(file, tables, given).headings
+        raise file.error(f"no column {min(lost)!r}; the headings are {headings}")
+    if tables:
+        first, read, alike = sheets_with_test(columns)
+        sheets = list(dict.fromkeys(table.sheet for table in tables))
+        others = ", ".join(repr(sheet) for sheet in sheets if sheet not in read)
+        many = f"{len(read)} sheets of sweeps are read"
+        which = many if len(read) > 1 else f"sheet {first!r} is read"
+        if others:
+            notes.append(f"{which}, {others} are not; choose another by its name")
+        elif len(read) > 1:
+            notes.append(f"{which}: {', '.join(map(repr, sheets))}")
+        if alike:
+            notes.append(
+                f"{len(alike) + 1} sheets hold sweeps, and only {first!r} is read, because their "
+                "temperatures are unknown or the same; save each as a file, or write a temperature"
+            )
+        tables = [table for table in tables if table.sheet in read]
+    if given.temperature_in_name:
+        given = replace(given, temperature=kelvin_in_name(file), temperature_in_name=False)
+    return Opened(replace(file, notes=tuple(notes)), tables, given)

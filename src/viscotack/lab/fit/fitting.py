@@ -15,14 +15,13 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.lab.sweeps import MasterCurve, celsius
-from viscotack.model.materials import Prony
 from viscotack.model.materials.passport import LIQUID
 from viscotack.model.materials.shift import TabulatedShift
 from viscotack.threads import one_blas_thread
 from viscotack.units import readable
 
 from .observed import Data, Observed, observed, only, thinned
-from .power_law import KINDS, fit_constants, fitted_constants
+from .power_law import KINDS, fit_constants
 from .prony import NAMES, change, fit_series, open_ends, with_noise
 from .report import ALIKE, FitReport, Interval
 
@@ -272,23 +271,29 @@ def fit(
     with one_blas_thread():
         seen = with_noise(thinned(seen))
         # without intervals, which only the model that is used needs
-        tried = [
-            fit_series(seen) if each == "prony" else fitted_constants(seen, model=each, known={})
-            for each in (affordable if model == "best" else ())
-        ]
+        tried = [_fitted(seen, each) for each in (affordable if model == "best" else ())]
         alike = _alike(tried)
         if alike:
             model = alike[0].model
-        more = {"level": level, "draws": draws, "seed": seed}
-        if model == "prony":
-            found = fit_series(seen, arms=arms, **more)
-        else:
-            found = fit_constants(seen, model=model, known=known or {}, **more)
+        found = _fitted(seen, model, arms, known or {}, level=level, draws=draws, seed=seed)
         if tried:
             found = replace(found, compared=tuple((one.model, one.criterion) for one in tried))
         words = (*cautions(found, arms), *seen.source.notes[-1:] * bool(seen.points))
         unknown = (*undetermined(found), *_undecided(alike))
         return replace(found, level=level, undetermined=unknown, cautions=words)
+
+
+def _fitted(
+    data: Observed,
+    model: str,
+    arms: int | None = None,
+    known: Mapping[str, float] | None = None,
+    **more: Any,
+) -> FitReport:
+    """Return one model fitted to measured numbers; without `level` and `draws`, no intervals."""
+    if model == "prony":
+        return fit_series(data, arms=arms, **more)
+    return fit_constants(data, model=model, known=known or {}, **more)
 
 
 def _alike(tried: Sequence[FitReport]) -> list[FitReport]:
@@ -366,10 +371,8 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
         if len(seen.parts) == 1:
             moved = only(moved, seen.parts[0])
         moved = replace(moved, noise=seen.noise)
-        if isinstance(report.material, Prony):
-            found.append(fit_series(moved, arms=len(report.material.branches)).material)
-        else:
-            found.append(fitted_constants(moved, model=report.model, known=known).material)
+        arms = len(report.material.branches) if report.model == "prony" else None
+        found.append(_fitted(moved, report.model, arms, known).material)
     quantile = NormalDist().inv_cdf((1 + report.level) / 2)
     intervals, more = [], 1.0
     for each in report.intervals:

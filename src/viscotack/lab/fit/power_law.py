@@ -261,7 +261,13 @@ def quick(data: Observed, solid: Any, at: Array) -> Array:
 
 
 def fit_constants(
-    data: Observed, *, model: str, known: Mapping[str, float], level: float, draws: int, seed: int
+    data: Observed,
+    *,
+    model: str,
+    known: Mapping[str, float],
+    level: float | None = None,
+    draws: int = 0,
+    seed: int = 0,
 ) -> FitReport:
     """Fit a power law or a standard solid to measured numbers.
 
@@ -273,8 +279,8 @@ def fit_constants(
         "power-law", "relaxation-power-law" or "sls".
     known : mapping
         Constants that are given, not fitted, by name, in SI.
-    level : float
-        Confidence level of the intervals, in (0, 1).
+    level : float or None
+        Confidence level of the intervals, in (0, 1); None for no intervals.
     draws : int
         Number of solids to sample.
     seed : int
@@ -288,6 +294,8 @@ def fit_constants(
     search = Search.of(data, model, known)
     best = search.minimum()
     found = rated(data, model, search.solid(best.x), len(search.free))
+    if level is None:
+        return found
     known_errors = errors(data, data.weighed(data.residuals(found.material)), best.jac)
     influences = np.linalg.pinv(best.jac)
     half = known_errors.half_width(influences, level)
@@ -313,12 +321,6 @@ def fit_constants(
         shared=known_errors.words(),
         draws=_draws(search, best.x, known_errors.covariance(influences), ends, draws, seed),
     )
-
-
-def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> FitReport:
-    """Return the fitted solid and its number of constants, without intervals."""
-    search = Search.of(data, model, known)
-    return rated(data, model, search.solid(search.minimum().x), len(search.free))
 
 
 def _draws(

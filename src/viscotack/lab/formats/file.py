@@ -109,16 +109,6 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
         raise file.error("a pointer of Git LFS, not the file itself; fetch it with git lfs pull")
     if file.is_workbook or content.startswith(raw):
         return file
-    text, encoding = _decoded(file)
-    if "\0" in text:
-        raise file.error("the file is neither text nor an Excel workbook; export it as text")
-    *lines, last = _LINE_END.split(text)
-    notes = () if encoding == "utf-8" else (f"text in {encoding}",)
-    return LabFile(name, content, tuple(lines), notes, last)
-
-
-def _decoded(file: LabFile) -> tuple[str, str]:
-    content = file.content
     encoding = next((name for mark, name in _MARKS if content.startswith(mark)), None)
     if encoding is None and b"\0" in content[:200]:
         # UTF-16 without byte order mark: every other byte of Latin text is 0
@@ -127,11 +117,16 @@ def _decoded(file: LabFile) -> tuple[str, str]:
         # an incomplete character at the end: the text before it is complete
         content = content[:-1]
     try:
-        return content.decode(encoding or "utf-8"), encoding or "utf-8"
+        text = content.decode(encoding or "utf-8")
     except UnicodeDecodeError as error:
-        if encoding is None:
-            return _by_code_page(content)
-        raise file.error(f"the bytes after {error.start} are no {encoding} text") from None
+        if encoding is not None:
+            raise file.error(f"the bytes after {error.start} are no {encoding} text") from None
+        text, encoding = _by_code_page(content)
+    if "\0" in text:
+        raise file.error("the file is neither text nor an Excel workbook; export it as text")
+    *lines, last = _LINE_END.split(text)
+    notes = () if encoding is None else (f"text in {encoding}",)
+    return replace(file, lines=tuple(lines), notes=notes, rest=last)
 
 
 def _by_code_page(content: bytes) -> tuple[str, str]:
