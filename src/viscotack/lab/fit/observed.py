@@ -176,10 +176,8 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
     for part, row in zip(PARTS[quantity], values, strict=True):
         decades = float(np.ptp(np.log10(row)))
         if decades > _MOST_DECADES:
-            raise InputError(
-                f"the numbers of {part} span {decades:.0f} decades, more than any instrument "
-                "resolves; remove those below its limit"
-            )
+            below = f"{decades:.0f} decades: remove those below the limit of the instrument"
+            raise InputError(f"the numbers of {part} span {below}")
     order = np.argsort(at, kind="stable")
     sweep = getattr(tension, "sweep", None)
     return Observed(

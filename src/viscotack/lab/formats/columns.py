@@ -15,6 +15,7 @@ from viscotack.errors import InputError
 from viscotack.lab.options import UNIT_OPTIONS, FileOptions, Options
 from viscotack.lab.sweeps import KINDS
 
+from . import numbers
 from .file import LabFile
 from .headings import (
     MATERIAL,
@@ -37,17 +38,6 @@ from .headings import (
     same_unit,
     scale,
     unit_within,
-)
-from .numbers import (
-    CLOCK,
-    decimal_mark,
-    doubtful_temperature,
-    half_digit,
-    is_number,
-    number,
-    plain_numbers,
-    seconds,
-    without_fillers,
 )
 from .tables import Table
 
@@ -176,7 +166,7 @@ class Columns:
     def resolution(self, quantity: str) -> Array:
         """Return half a unit of the last digit written, in the unit of the file."""
         index, heading = self._column(quantity)
-        digits = np.array([half_digit(cells[index]) for _, cells in self.table.rows])
+        digits = np.array([numbers.half_digit(cells[index]) for _, cells in self.table.rows])
         if heading.base is None:
             return digits
         return digits * math.log(heading.base) * self.numbers(quantity, needed=False)
@@ -202,24 +192,24 @@ class Columns:
         """Return whether a column has clock times: hh:mm:ss, or mm:ss where its unit says so."""
         first = next(filter(None, (row[index].strip() for _, row in self.table.rows)), "")
         unit = unit_within(self.table.headings[index]) or self.table.units[index]
-        return bool(CLOCK.fullmatch(first)) or (":" in first and is_clock_unit(unit))
+        return bool(numbers.CLOCK.fullmatch(first)) or (":" in first and is_clock_unit(unit))
 
     def _numbers(self, index: int) -> Array:
         """Return a column in the unit of the file; nan for gaps."""
         rows = self.table.rows
         cells = [cells[index] for _, cells in rows]
-        values = plain_numbers(cells) if self.options.decimal != "," else None
+        values = numbers.plain_numbers(cells) if self.options.decimal != "," else None
         if values is None:
             clock = self._is_clock(index)
             mark = "" if clock else self._decimal_mark
             values = np.empty(len(cells))
             for row, text in enumerate(cells):
                 try:
-                    values[row] = seconds(text) if clock else number(text, mark)
+                    values[row] = numbers.seconds(text) if clock else numbers.number(text, mark)
                 except ValueError as error:
                     name = self.table.headings[index]
                     raise self.error(f'column "{name}": {error}', row) from None
-        values, filled = without_fillers(values)
+        values, filled = numbers.without_fillers(values)
         if filled:
             name = self.table.headings[index]
             self.notes.append(f'"{name}": {filled} numbers such as -9999 are gaps')
@@ -232,7 +222,9 @@ class Columns:
             return self.options.decimal
         used = self.columns_in_use
         try:
-            found = decimal_mark(cells[index] for _, cells in self.table.rows for index in used)
+            found = numbers.decimal_mark(
+                cells[index] for _, cells in self.table.rows for index in used
+            )
         except ValueError as error:
             raise self.error(str(error)) from None
         self.notes += ["decimal comma"] * (found == ",")
@@ -312,7 +304,7 @@ class Columns:
         for row in np.flatnonzero((kelvins <= POSSIBLE[0]) | (kelvins >= POSSIBLE[1])):
             with self._located("temperature", row):
                 possible(kelvins[row])
-        self.notes += doubtful_temperature(kelvins, offset == 0.0)
+        self.notes += numbers.doubtful_temperature(kelvins, offset == 0.0)
         return kelvins
 
     # ---- one of several columns ----------------------------------------------------------------
@@ -469,7 +461,9 @@ def refuse_pooled(read: Sequence[Columns]) -> None:
                 columns.setdefault(heading, []).extend(cells)
     for heading, cells in columns.items():
         values = dict.fromkeys(cell for cell, _ in cells if cell)
-        text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
+        text = not any(
+            numbers.is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values
+        )
         name = plain(heading)
         sample, place = _SAMPLE.fullmatch(name), _PLACE.fullmatch(name)
         # a number of its own in each row counts the points

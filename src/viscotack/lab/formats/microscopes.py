@@ -39,14 +39,12 @@ from viscotack.lab.options import TackOptions
 from viscotack.units import parse
 
 from .file import Curve, LabFile, entries, in_sequence, unpacked
+from .headings import scale
 
 _INTEGERS = {
-    "signedshort": ">i2",
-    "unsignedshort": ">u2",
-    "signedinteger": ">i4",
-    "unsignedinteger": ">u4",
+    "signedshort": ">i2", "unsignedshort": ">u2", "signedinteger": ">i4", "unsignedinteger": ">u4",
     "signedlong": ">i8",
-}
+}  # fmt: skip
 _FLOATS = {"float": ">f4", "float-data": ">f4", "double": ">f8", "double-data": ">f8"}
 # height of the cantilever's carrier; measured is preferred to commanded
 HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
@@ -69,7 +67,7 @@ def jpk(file: LabFile, *_: object) -> list[Curve] | None:
     if "data-image.jpk-qi-image" in files or any(part.startswith("index/") for part in files):
         raise file.error("the file is a map of many curves; export one curve per file")
     shared = _properties(files.get("shared-data/header.properties", b""))
-    parts: list[tuple[Array, Array, Array]] = []
+    parts: list[list[Array]] = []
     used, stiffness = "", 0.0
     for number in sorted(int(match[1]) for part in files if (match := _SEGMENT.fullmatch(part))):
         folder = f"segments/{number}/"
@@ -81,31 +79,26 @@ def jpk(file: LabFile, *_: object) -> list[Curve] | None:
         used = used or next((channel for channel in HEIGHTS if channel in present), "")
         if not used:
             raise file.error(f"no channel of height; the channels are {', '.join(present)}")
-        words = {name: _channel(name, own, shared) for name in ("vDeflection", used)}
-        force, height = (
-            _calibrated(file, name, words[name], files[f"{folder}channels/{name}.dat"])
-            for name in words
-        )
-        stiffness = 0.0  # unknown
-        if words["vDeflection"].get(f"{_FORCE}base-calibration-slot") == "distance":
-            stiffness = abs(float(words["vDeflection"][f"{_FORCE}scaling.multiplier"]))
         duration = float(own["force-segment-header.duration"])
-        parts.append((duration * np.arange(1, points + 1) / points, force, height))
+        numbers, stiffness = [duration * np.arange(1, points + 1) / points], 0.0  # unknown
+        for name in ("vDeflection", used):
+            # the header of a channel is in that of its segment, or in the shared one
+            slot = own.get(f"channel.{name}.lcd-info.*")
+            words, before = own, f"channel.{name}."
+            if slot is not None:
+                words, before = shared, f"lcd-info.{slot}."
+            words = {k.removeprefix(before): v for k, v in words.items() if k.startswith(before)}
+            # older headers store the encoder below "data"
+            older = {k: v for k, v in words.items() if k.startswith("data.enc")}
+            words |= {k.removeprefix("data."): v for k, v in older.items()}
+            numbers.append(_calibrated(file, name, words, files[f"{folder}channels/{name}.dat"]))
+            if words.get(f"{_FORCE}base-calibration-slot") == "distance":
+                stiffness = stiffness or abs(float(words[f"{_FORCE}scaling.multiplier"]))
+        parts.append(numbers)
     if not parts:
         raise file.error("no segment of a force curve has points")
     # heights increase away from the sample
     return [Curve(*in_sequence(parts), -1, stiffness, (f"height from the channel {used}",))]
-
-
-def _channel(name: str, own: _Words, shared: _Words) -> _Words:
-    """Return the header of a channel, from that of its segment or the shared one."""
-    slot = own.get(f"channel.{name}.lcd-info.*")
-    before = f"channel.{name}." if slot is None else f"lcd-info.{slot}."
-    words = own if slot is None else shared
-    found = {k.removeprefix(before): v for k, v in words.items() if k.startswith(before)}
-    # older headers store the encoder below "data"
-    older = {k.removeprefix("data."): v for k, v in found.items() if k.startswith("data.enc")}
-    return found | older
 
 
 def _calibrated(file: LabFile, name: str, words: _Words, content: bytes) -> Array:
@@ -206,7 +199,20 @@ def ibw(file: LabFile, *_: object) -> list[Curve] | None:
     """
     if not file.content.startswith(START) or file.lines or len(file.content) <= _DATA:
         return None
-    columns, note = _wave(file)
+    content = file.content
+    _, _, _, formula, note, units, *sizes = _HEAD.unpack_from(content)[:14]
+    points, kind = struct.unpack_from("<ih", content, 64 + 12)
+    shape = struct.unpack_from("<2i", content, 64 + 68)
+    table = np.frombuffer(content, _TYPES[kind], points, _DATA).astype(float)
+    end = _DATA + points * np.dtype(_TYPES[kind]).itemsize
+    at = end + formula + note + units + sum(sizes[:5])
+    names = content[at : at + sizes[5]]
+    if len(names) < sizes[5]:
+        raise file.error("the wave is shorter than its header states; the file is truncated")
+    rows = iter(table.reshape(shape, order="F").T)
+    labels = (names[i : i + _LABEL].split(b"\0")[0] for i in range(_LABEL, len(names), _LABEL))
+    columns = dict(zip((label.decode("latin-1") for label in labels), rows, strict=False))
+    note = content[end + formula : end + formula + note].decode("latin-1")
     # the first entry counts
     noted = dict(reversed(_NOTED.findall(note)))
     if missing := {"Defl", "ZSnsr"} - columns.keys() or {"SpringConstant"} - noted.keys():
@@ -217,27 +223,6 @@ def ibw(file: LabFile, *_: object) -> list[Curve] | None:
     time = np.arange(1, height.size + 1) / rate
     # the sensor value increases when the tip is lowered
     return [Curve(time[keep], stiffness * deflection[keep], height[keep], 1, stiffness)]
-
-
-def _wave(file: LabFile) -> tuple[dict[str, Array], str]:
-    """Return the named columns of a wave, and its note."""
-    content = file.content
-    _, _, _, formula, note, units, *sizes = _HEAD.unpack_from(content)[:14]
-    points, kind = struct.unpack_from("<ih", content, 64 + 12)
-    rows, wide = struct.unpack_from("<2i", content, 64 + 68)
-    table = np.frombuffer(content, _TYPES[kind], points, _DATA).astype(float)
-    table = table.reshape((rows, wide), order="F")
-    end = _DATA + points * np.dtype(_TYPES[kind]).itemsize
-    at = end + formula + note + units + sum(sizes[:5])
-    names = content[at : at + sizes[5]]
-    if len(names) < sizes[5]:
-        raise file.error("the wave is shorter than its header states; the file is truncated")
-    found = [
-        names[i : i + _LABEL].split(b"\0")[0].decode("latin-1")
-        for i in range(_LABEL, len(names), _LABEL)
-    ]
-    columns = {word: table[:, i] for i, word in enumerate(found[:wide]) if word}
-    return columns, content[end + formula : end + formula + note].decode("latin-1")
 
 
 MARK = b"[DataSet]"
@@ -286,9 +271,8 @@ def nid(file: LabFile, *_: object) -> list[Curve] | None:
         parts.append((step * np.arange(1.0, height.size + 1), deflection, height))
     if not parts:
         raise file.error("the file has no part Spec forward or Spec backward; it may be an image")
-    note = (
-        f"{planned['Data points']} equidistant points were planned in {planned['Modulation time']}"
-    )
+    planned_in = f"planned in {planned['Modulation time']}"
+    note = f"{planned['Data points']} equidistant points were {planned_in}"
     # direction unknown: when the head is lowered, the numbers rise on some heads and fall on others
     return [Curve(*in_sequence(parts), notes=(note,))]
 
@@ -320,7 +304,6 @@ def _channels(file: LabFile, sections: _Sections, content: bytes) -> dict[tuple[
 _MEMS_FIRST = "Quasi static measurement routine"
 _MEMS_LOOKED = 20  # lines searched for the end of the headings
 _COLUMNS = ("Piezo position", "MEMS displ.", "Time")
-_MEMS_UNITS = {"nm": 1e-9, "um": 1e-6, "µm": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 def mems_text(file: LabFile, given: TackOptions) -> list[Curve] | None:
@@ -341,7 +324,7 @@ def mems_text(file: LabFile, given: TackOptions) -> list[Curve] | None:
     if not set(_COLUMNS) <= set(names):
         raise file.error(f"expected the columns {', '.join(_COLUMNS)} with units")
     places = [names.index(name) for name in _COLUMNS]
-    factors = np.array([[_MEMS_UNITS[units[place]]] for place in places])
+    factors = np.array([[scale(units[i], x)] for i, x in zip(places, "mms", strict=True)])
     found = []
     below = file.lines[end + 1 :]
     for whole, lines in groupby(below, lambda text: text.count("\t") == len(heads) - 1):
@@ -411,7 +394,7 @@ def afm(file: LabFile, given: TackOptions) -> list[Curve] | None:
     for curve in found:
         measured = not chiaro and "height (measured)" in curve.columns
         used = "height (measured)" if measured else "height (piezo)"
-        if not {"force", used} <= set(curve.columns):
+        if not {"force", used} <= {*curve.columns}:
             raise file.error(f"curve {curve.enum} has no force and measured height")
         force, height = (np.asarray(curve[key], float) for key in ("force", used))
         notes = [f"curve {curve.enum} of the file, read by afmformats"]

@@ -440,13 +440,11 @@ class Survey:
     @property
     def reasons(self) -> tuple[tuple[str, str], ...]:
         """File and reason of every rejected file and cycle."""
-        files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in self.unread]
-        cycles = [
-            (one.record.source.path, f"cycle {refused.number}: {refused.reason}")
-            for one in self.evaluations
-            for refused in one.refused
-        ]
-        return (*files, *cycles)
+        found = [(path, reason.removeprefix(f"{path}: ")) for path, reason in self.unread]
+        for one in self.evaluations:
+            path = one.record.source.path
+            found += [(path, f"cycle {number}: {reason}") for number, reason in one.refused]
+        return tuple(found)
 
 
 def survey(

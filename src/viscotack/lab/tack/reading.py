@@ -163,16 +163,10 @@ def _record(file: LabFile, curve: Curve, notes: Sequence[str], **more: Any) -> T
     if curve.stiffness:
         rig = f"cantilever of {readable(curve.stiffness, 'N/m')}"
         notes.append(f"{rig}, whose deflection is subtracted from the height")
+    more["compliance"] = 1 / curve.stiffness if curve.stiffness else 0.0
+    more["source"] = Source(file.path, file.sha256, file.format, tuple(notes))
     try:
-        return TackRecord(
-            curve.time,
-            curve.force,
-            curve.position,
-            into=curve.into,
-            compliance=1 / curve.stiffness if curve.stiffness else 0.0,
-            source=Source(file.path, file.sha256, file.format, tuple(notes)),
-            **more,
-        )
+        return TackRecord(curve.time, curve.force, curve.position, into=curve.into, **more)
     except InputError as error:
         raise file.error(str(error)) from None
 
