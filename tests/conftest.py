@@ -10,15 +10,6 @@ settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
 
 
-def pytest_addoption(parser):
-    parser.addoption(
-        "--tack",
-        type=Path,
-        default=Path("tack-files"),
-        help="folder with the raw data of public tack tests, docs/verification.md says which",
-    )
-
-
 @pytest.fixture
 def small(tmp_path, monkeypatch, request):
     """Stand in a folder with the file that the module of the test has as SMALL."""

@@ -93,21 +93,9 @@ def test_best_finds_the_law_that_made_the_numbers():
 @pytest.mark.parametrize("apart, chosen", [(1.9, "fractional-zener"), (2.1, "prony")])
 def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, chosen):
     solid = fractional_zener(1e6, 1e9, 0.5, 1e-3, 0.5)
-    tried = [
-        FitReport(
-            observed=None,
-            model=model,
-            material=solid,
-            scatter=0.01,
-            criterion=criterion,
-            constants=count,
-        )
-        for model, criterion, count in (
-            ("fractional-zener", 10.0 + apart, 4),
-            ("prony", 10.0, 14),
-            ("sls", 12.2, 3),
-        )
-    ]
+    same = {"observed": None, "material": solid, "scatter": 0.01}
+    each = (("fractional-zener", 10.0 + apart, 4), ("prony", 10.0, 14), ("sls", 12.2, 3))
+    tried = [FitReport(model=m, criterion=c, constants=n, **same) for m, c, n in each]
     alike = _alike(tried)
     assert alike[0].model == chosen
     assert len(alike) == (2 if apart < 2 else 1)

@@ -25,13 +25,6 @@ def test_every_text_format_gives_the_same_numbers(file, name):
     assert len(sweeps.source.sha256) == 64
 
 
-def test_a_workbook_gives_the_same_numbers():
-    pytest.importorskip("openpyxl")
-    sweeps = read_dma(lab_files.LAYOUTS / "workbook.xlsx")
-    assert_the_film(sweeps)
-    assert sweeps.source.format == "workbook"
-
-
 @pytest.mark.parametrize(("name", "headings"), [("film.osc", True), ("film.tts", False)])
 def test_reptate_is_read_in_its_own_units(file, name, headings):
     lines = lab_files.REPTATE.splitlines(keepends=True)

@@ -10,8 +10,7 @@ import pytest
 
 from command_line import answered, exit_status, refused, rows_of
 from viscotack.lab.tack import Measured, survey
-from viscotack.lab.tack.repeats import jkr_work, speed_table
-from viscotack.theory import jkr
+from viscotack.lab.tack.repeats import speed_table
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"
 
@@ -63,12 +62,6 @@ def test_compliance_and_signs_are_said_by_flags(capsys):
     assert depths[1] - depths[0] == pytest.approx(200e-6 * cycle["pull_off_force_N"], rel=0.1)
     for flag, wrong in (("--into", "up"), ("--compression", "-")):
         assert flag in refused([*command, flag, wrong], capsys)
-
-
-def test_the_work_of_jkr_is_that_of_its_pull_off():
-    force = float(jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.152))
-    assert jkr_work(force, 5e-3) == pytest.approx(0.152)
-    assert jkr_work(force, 5e-3) == pytest.approx(2 * force / (3 * np.pi * 5e-3))
 
 
 def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
