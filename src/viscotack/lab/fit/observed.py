@@ -163,23 +163,32 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         raise InputError(f"a fit needs sweeps, a master curve or a test, got {type(data).__name__}")
     if len(data) < 3:
         raise InputError(f"a fit needs at least 3 points, got {len(data)}")
-    if isinstance(data, FrequencySweeps):
+    seen: Any = ()
+    if isinstance(data, MasterCurve):
+        temperature = data.reference_temperature
+        seen = data.temperature if data.shifts is None else data.shifts.temperature
+    elif isinstance(data, FrequencySweeps):
         refuse_unlike(data)
-    tension = data.in_tension(poisson_ratio)
-    temperature, temperatures = _temperatures(data)
-    values = np.array([getattr(tension, name) for name in tension.measured])
-    if isinstance(tension, MasterCurve | FrequencySweeps):
-        quantity, at = "complex modulus", tension.angular_frequency
+        seen = data.temperature[np.isfinite(data.temperature)]
+        # chambers hold the temperature within about 1 K
+        if seen.size and np.ptp(seen) > 3:
+            raise InputError("the sweeps have several temperatures; fit their master curve")
+        temperature = float(np.mean(seen)) if seen.size else None
     else:
-        quantity = "relaxation" if isinstance(tension, RelaxationTest) else "creep"
-        at = tension.time
+        temperature = data.temperature
+    seen = np.array([] if seen is None else seen, dtype=float)
+    seen = seen[np.isfinite(seen)]
+    tension = data.in_tension(poisson_ratio)
+    values = np.array([getattr(tension, name) for name in tension.measured])
+    steps = {"modulus": "relaxation", "compliance": "creep"}
+    quantity = steps.get(tension.measured[0], "complex modulus")
+    at, sweep = getattr(tension, tension.along), getattr(tension, "sweep", None)
     for part, row in zip(PARTS[quantity], values, strict=True):
         decades = float(np.ptp(np.log10(row)))
         if decades > _MOST_DECADES:
             below = f"{decades:.0f} decades: remove those below the limit of the instrument"
             raise InputError(f"the numbers of {part} span {below}")
     order = np.argsort(at, kind="stable")
-    sweep = getattr(tension, "sweep", None)
     return Observed(
         quantity=quantity,
         at=at[order],
@@ -188,28 +197,10 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         poisson_ratio=float(poisson_ratio),
         kind=data.kind,
         temperature=temperature,
-        temperatures=temperatures,
+        temperatures=(float(seen.min()), float(seen.max())) if seen.size else None,
         source=data.source,
-        sweep=None if sweep is None else np.asarray(sweep)[order],
+        sweep=None if sweep is None else sweep[order],
     )
-
-
-def _temperatures(data: Data) -> tuple[float | None, tuple[float, float] | None]:
-    """Return the temperature of the curve, and the range of measured temperatures."""
-    if isinstance(data, MasterCurve):
-        seen = data.shifts.temperature if data.shifts is not None else data.temperature
-        reference = data.reference_temperature
-    elif isinstance(data, FrequencySweeps):
-        seen = data.temperature[np.isfinite(data.temperature)]
-        # chambers hold the temperature within about 1 K
-        if seen.size and np.ptp(seen) > 3:
-            raise InputError("the sweeps have several temperatures; fit their master curve")
-        reference = float(np.mean(seen)) if seen.size else None
-    else:
-        return data.temperature, None
-    if seen is None or not np.any(np.isfinite(seen)):
-        return reference, None
-    return reference, (float(np.nanmin(seen)), float(np.nanmax(seen)))
 
 
 _MOST = 500  # largest number of points fitted without averaging

@@ -49,13 +49,10 @@ def fit_wlf(table: TabulatedShift, *, reference_temperature: float) -> FittedShi
     weight = 1 / _deviation(table)
     coldest = min(float(np.min(above)), 0.0)
 
-    def shape(q: Array) -> tuple[Array, float, float]:
-        c1, c2 = math.exp(q[0]), math.exp(q[1]) - coldest
-        return wlf_decades(above, c1, c2), c1, c2
-
     def residual(q: Array) -> Array:
         # fit the zero as well: the table may have another reference temperature
-        return weight * (q[2] + shape(q)[0] - np.array(table.values))
+        decades = wlf_decades(above, math.exp(q[0]), math.exp(q[1]) - coldest)
+        return weight * (q[2] + decades - np.array(table.values))
 
     offset = float(np.interp(reference_temperature, table.temperature, np.array(table.values)))
     starts = [
@@ -63,16 +60,12 @@ def fit_wlf(table: TabulatedShift, *, reference_temperature: float) -> FittedShi
     ]
     limits = ([-3.0, -5.0, -np.inf], [math.log(1e4), math.log(1e5), np.inf])
     best = min((least_squares(residual, s, bounds=limits) for s in starts), key=lambda f: f.cost)
-    values, c1, c2 = shape(best.x)
+    c1, c2 = math.exp(best.x[0]), math.exp(best.x[1]) - coldest
     if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
         raise InputError("the shifts curve against a WLF law; fit Arrhenius, or part of the table")
     # chain rule from ln c1 and ln(c2 + coldest)
-    scale = np.array([c1, c2 + coldest])
-    error = scale * np.sqrt(np.diag(_covariance(best.jac, best.fun))[:2])
-    difference = np.array(table.values) - best.x[2] - values
-    return _fit(
-        WLF(reference_temperature=reference_temperature, c1=c1, c2=c2), error, table, difference
-    )
+    law = WLF(reference_temperature=reference_temperature, c1=c1, c2=c2)
+    return _fit(table, law, best.jac, np.array([c1, c2 + coldest]))
 
 
 def fit_arrhenius(table: TabulatedShift, *, reference_temperature: float) -> FittedShift:
@@ -107,14 +100,12 @@ def fit_arrhenius(table: TabulatedShift, *, reference_temperature: float) -> Fit
     unit = np.asarray(Arrhenius(reference_temperature, 1.0).log10_shift(table.temperature))
     weight = 1 / _deviation(table)
     columns = np.column_stack((unit, np.ones(len(table))))
-    values = np.array(table.values)
-    found, *_ = np.linalg.lstsq(columns * weight[:, None], values * weight, rcond=None)
+    columns *= weight[:, None]
+    found, *_ = np.linalg.lstsq(columns, np.array(table.values) * weight, rcond=None)
     if found[0] <= 0:
         raise InputError(f"the shift rises with temperature ({found[0]:.3g} J/mol); give 1/a_T")
-    difference = values - columns @ found
-    covariance = _covariance(columns * weight[:, None], difference * weight)
-    error = np.sqrt(np.diag(covariance)[:1])
-    return _fit(Arrhenius(reference_temperature, float(found[0])), error, table, difference)
+    law = Arrhenius(reference_temperature, float(found[0]))
+    return _fit(table, law, columns, np.ones(1))
 
 
 def nearest_law(table: TabulatedShift, *, reference_temperature: float) -> FittedShift | None:
@@ -168,20 +159,18 @@ def _deviation(table: TabulatedShift) -> Array:
     return np.hypot(table.uncertainty or np.zeros(len(table)), _UNCERTAIN)
 
 
-def _covariance(jacobian: Array, residual: Array) -> Array:
-    """Return the covariance, scaled up if the scatter exceeds the stated uncertainty."""
-    freedom = residual.size - jacobian.shape[1]
-    excess = max(1.0, float(residual @ residual) / freedom) if freedom > 0 else 1.0
-    return np.asarray(excess * np.linalg.pinv(jacobian.T @ jacobian), dtype=float)
+def _fit(table: TabulatedShift, law: WLF | Arrhenius, jacobian: Array, scale: Array) -> FittedShift:
+    """Return a law with errors, widened if the scatter exceeds the stated uncertainty.
 
-
-def _fit(
-    law: WLF | Arrhenius, error: Array, table: TabulatedShift, difference: Array
-) -> FittedShift:
-    worst = int(np.argmax(np.abs(difference)))
+    `jacobian` is that of the weighted residuals, `scale` the constants over its variables.
+    """
+    off = _off(table, law)
+    freedom = off.size - jacobian.shape[1]
+    excess = np.sum((off / _deviation(table)) ** 2) / freedom if freedom > 0 else 1.0
+    covariance = max(1.0, excess) * np.linalg.pinv(jacobian.T @ jacobian)
+    error = scale * np.sqrt(np.diag(covariance)[: scale.size])
+    worst = int(np.argmax(np.abs(off)))
+    misfit = float(np.sqrt(np.mean(off**2)))
     return FittedShift(
-        law,
-        tuple(float(e) for e in error),
-        float(np.sqrt(np.mean(difference**2))),
-        (table.temperature[worst], float(difference[worst])),
+        law, tuple(error.tolist()), misfit, (table.temperature[worst], float(off[worst]))
     )

@@ -61,13 +61,6 @@ def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[
         raise file.error("a quotation mark is not closed; add the closing one", number) from None
 
 
-def _separators(text: str) -> list[str | None]:
-    """Return the possible separators of a line; None for spaces."""
-    marks: list[str | None] = [m for m in _SEPARATORS if m is not None and m in text]
-    # a line with tabs has no other cells between blanks
-    return marks if "\t" in text.strip() else [*marks, None]
-
-
 def is_comment(text: str) -> bool:
     """Return whether a line is a comment."""
     return text.lstrip().startswith(("#", "%"))
@@ -94,7 +87,9 @@ def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[T
     """
     lines: list[Line] = []
     for count, text in enumerate(file.lines[:LOOKED], start=1):
-        for separator in _separators(text):
+        marks = [mark for mark in _SEPARATORS if mark is None or mark in text]
+        # a line with tabs has no other cells between blanks
+        for separator in marks[:-1] if "\t" in text.strip() else marks:
             with suppress(InputError):
                 row = cells(file, text.lstrip("#% "), count, separator)
                 lines.append((count, separator, row))

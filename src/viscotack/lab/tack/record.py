@@ -23,8 +23,11 @@ from viscotack.lab.sweeps import Source, array, store
 
 from .baseline import point_noise
 
-# above the range of all rigs: a damaged number or a wrong unit
-_LARGEST = {"time": ("s", 1e10), "force": ("N", 1e8), "position": ("m", 1e4)}
+# beyond the range of all rigs: a damaged number or a wrong unit
+_LIMITS = {
+    "time": ("s", -1e10, 1e10), "force": ("N", -1e8, 1e8), "position": ("m", -1e4, 1e4),
+    "contact_radius": ("m", 0.0, 1e4), "temperature": ("K", 1e-300, 1e4),
+}  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,13 +71,16 @@ class TackRecord:
 
     def __post_init__(self):
         length = None
-        for name, (unit, most) in _LARGEST.items():
+        for name, (unit, least, most) in _LIMITS.items():
+            if getattr(self, name) is None:
+                continue
             row = array(name, getattr(self, name), unit, length)
             length = row.size
-            wrong = row[~(np.abs(row) <= most)]
+            unknown = np.isnan(row) & (name in ("contact_radius", "temperature"))
+            wrong = row[~((row >= least) & (row <= most) | unknown)]
             if wrong.size:
-                limit = f"{name} must be finite and at most {most:g} {unit}"
-                raise InputError(f"{limit}, got {wrong[0]:g}; check its unit")
+                limits = f"{name} must lie between {least:g} and {most:g} {unit}"
+                raise InputError(f"{limits}, got {wrong[0]:g}; check its unit")
             store(self, name, row)
         steps = np.diff(self.time)
         if np.any(steps < 0):
@@ -85,13 +91,6 @@ class TackRecord:
             raise InputError(f"into must be 1, -1 or 0, got {self.into!r}")
         if not 0 <= self.compliance < np.inf:
             raise InputError(f"compliance must not be negative [m/N], got {self.compliance!r}")
-        for name, unit in (("contact_radius", "m"), ("temperature", "K")):
-            if getattr(self, name) is not None:
-                row = array(name, getattr(self, name), unit, length)
-                least = 0.0 if unit == "m" else 1e-300
-                if np.any(row < least) or np.any(np.isinf(row)):
-                    raise InputError(f"{name} must be positive [{unit}], got {np.nanmin(row):g}")
-                store(self, name, row)
 
     def __len__(self) -> int:
         return self.time.size
