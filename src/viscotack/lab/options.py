@@ -168,11 +168,8 @@ class Options(FileOptions):
             match = _COLUMN.fullmatch(part)
             quantity = COLUMNS.get(plain(match[1])) if match else None
             if match is None or quantity is None:
-                raise InputError(
-                    '`columns` must be like "frequency=1 [Hz]; storage=Column name [Pa]" with '
-                    f"the quantities {', '.join(sorted(set(COLUMNS.values())))}, got "
-                    f"{part.strip()!r}"
-                )
+                known = f"of {', '.join(sorted(set(COLUMNS.values())))}, got {part.strip()!r}"
+                raise InputError(f'`columns` must be like "frequency=1 [Hz]; loss=3 [Pa]", {known}')
             unit = _BRACKET.fullmatch(match[2])
             found[quantity] = Column(unit[1], unit[2].strip()) if unit else Column(match[2], "")
         return found

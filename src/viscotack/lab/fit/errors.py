@@ -169,10 +169,9 @@ class Errors:
         if likely.sweep:
             common = 100 * size * likely.sweep
             return f"the points of one sweep have a common error of {common:.2g} %"
-        return (
-            f"neighbouring points have correlated errors of {100 * size * likely.drift:.2g} % over "
-            f"{likely.length / np.log(10):.1g} decades: a local misfit, or the instrument drifts"
-        )
+        common, decades = 100 * size * likely.drift, likely.length / np.log(10)
+        near = f"neighbouring points have correlated errors of {common:.2g} %"
+        return f"{near} over {decades:.1g} decades: a local misfit, or the instrument drifts"
 
     def _covariances(self, influences: Array) -> list[Array]:
         """Return the covariance of quantities under each form."""

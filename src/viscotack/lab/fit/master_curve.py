@@ -109,10 +109,8 @@ def master_curve(
     if reference is None:
         if shift is not None or many:
             known = temperature[np.isfinite(temperature)] - 273.15
-            raise InputError(
-                f"sweeps from {known.min(initial=np.inf):.1f} to {known.max(initial=-np.inf):.1f} "
-                "C, or with a shift, need the temperature of the result, `reference_temperature`"
-            )
+            span = f"{known.min(initial=np.inf):.1f} to {known.max(initial=-np.inf):.1f} C"
+            raise InputError(f"sweeps from {span}, or with a shift, need `reference_temperature`")
         return _moved(sweeps, None if unknown else float(np.mean(temperature)))
     if unknown:
         raise InputError("the temperature of some points is unknown; set `temperature`")
@@ -124,10 +122,8 @@ def master_curve(
     elif not many and np.all(np.abs(temperature - reference) <= GAP):
         return _moved(sweeps, reference)
     elif many and np.ptp(sweeps.angular_frequency) <= 1e-3 * sweeps.angular_frequency[0]:
-        raise InputError(
-            "a temperature ramp at one frequency has no overlap that tells the shift; give a law, "
-            "such as WLF by a `glass_transition`, or a table"
-        )
+        alone = "a temperature ramp at one frequency has no overlap"
+        raise InputError(f"{alone}; give a law, such as WLF by `glass_transition`, or a table")
     elif by is None and vertical is None:
         return most_carried(sweeps, reference_temperature=reference)
     else:

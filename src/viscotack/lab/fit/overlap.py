@@ -25,6 +25,7 @@ from numpy.polynomial import chebyshev
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
+LAW = "give a shift law by `glass_transition`, `wlf` or `shift_file`"
 _DEGREES = range(1, 7)
 _FREEDOM = 4.0  # degrees of freedom of Student's t
 _FINEST = 1e-4  # decades: scatter below which two curves are the same
@@ -147,11 +148,8 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
             break  # higher degrees do not improve the criterion
     degree, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
     if best in (0, tried.size - 1):
-        raise InputError(
-            "the curves fit best end to end, so the data do not determine the shift; superpose "
-            "another modulus by `shift_by`, or give a law by `glass_transition`, `wlf` or "
-            "`shift_file`"
-        )
+        unknown = "the curves fit best end to end, so the data do not determine the shift"
+        raise InputError(f"{unknown}; set `shift_by`, or {LAW}")
     degree = _DEGREES[int(degree)]
     return _refined(colder, hotter, float(tried[best]), hold, degree), degree
 

@@ -24,13 +24,12 @@ from viscotack.errors import InputError
 from viscotack.lab.sweeps import GAP, FrequencySweeps, levels
 from viscotack.model.materials.shift import TabulatedShift
 
-from .overlap import Curve, Hold, Step, free_vertical, step_between, vertical_at
+from .overlap import LAW, Curve, Hold, Step, free_vertical, step_between, vertical_at
 
 FEWEST = 4  # smallest number of points per temperature
 MOST = 200  # largest number of points per temperature; more are averaged without loss of accuracy
 BY = ("both", "storage", "loss", "tan")
 BEST = ("both", "auto")  # by, vertical: what shifts are compared with; uses most of the data
-_LAW = "give a shift law by `glass_transition`, `wlf` or `shift_file`"
 THERMOMETER = 0.2  # K: standard uncertainty of a chamber's temperature
 
 
@@ -119,18 +118,16 @@ def shifts_between(
     """
     if vertical not in _VERTICAL:
         if isinstance(vertical, bool | str) or not 0 <= float(vertical) < 0.01:
-            raise InputError(
-                f"vertical must be one of {', '.join(_VERTICAL)}, or a volume expansion from 0 to "
-                f"0.01 1/K, got {vertical!r}"
-            )
+            known = f"{', '.join(_VERTICAL)} or a volume expansion from 0 to 0.01 1/K"
+            raise InputError(f"vertical must be {known}, got {vertical!r}")
         vertical = float(vertical)
     if by not in BY:
         raise InputError(f"by must be one of {', '.join(BY)}, got {by!r}")
     if len(curves) < 2:
-        raise InputError(f"a shift needs two or more temperatures; {_LAW}")
+        raise InputError(f"a shift needs two or more temperatures; {LAW}")
     if not temperature[0] - GAP <= reference <= temperature[-1] + GAP:
         ends = f"{temperature[0]:.2f} and {temperature[-1]:.2f} K, got {reference:g} K"
-        raise InputError(f"`reference_temperature` must lie between {ends}; beyond, {_LAW}")
+        raise InputError(f"`reference_temperature` must lie between {ends}; beyond, {LAW}")
     steps = steps_between(temperature, curves, by, vertical)
     shift, up, deviation = _summed(steps, temperature, reference)
     # change of each shift for an error of 1 K in its or the reference temperature
@@ -220,10 +217,8 @@ def level_curves(temperature: Array, levels: Sequence[FrequencySweeps]) -> list[
 def curve(temperature: float, x: Array, *y: Array) -> Curve:
     """Return moduli over frequency, in decades, averaged to at most MOST points."""
     if x.size < FEWEST or np.ptp(x) < 0.1:
-        raise InputError(
-            f"{x.size} points at {temperature:.2f} K, over {np.ptp(x):.1g} decades, are too few "
-            f"to overlap; {_LAW}, or `leave_out` this temperature"
-        )
+        few = f"{x.size} points at {temperature:.2f} K over {np.ptp(x):.1g} decades are too few"
+        raise InputError(f"{few}; {LAW}, or `leave_out` this temperature")
     if x.size <= MOST:
         return Curve(x, y)
     stretch = (MOST * (x - x[0]) / (np.ptp(x) * (1 + 1e-12))).astype(int)

@@ -176,21 +176,18 @@ def doubtful_temperature(kelvins: Array, in_kelvin: bool) -> list[str]:
     Examples
     --------
     >>> doubtful_temperature(np.array([566.15, 571.15]), False)
-    ['check: temperatures from 293 to 298 C would be room temperatures if in kelvin']
+    ['check: 293 to 298 C would be temperatures of a room if in kelvin']
     """
     known = kelvins[np.isfinite(kelvins)]
     if not known.size:
         return []
     low, high = float(known.min()), float(known.max())
     if in_kelvin and high < _COLD:
-        return [f"check: temperatures from {low:.4g} to {high:.4g} K would be usual if in Celsius"]
+        return [f"check: {low:.4g} to {high:.4g} K would be usual if in Celsius"]
     low, high = low - 273.15, high - 273.15
     if in_kelvin or low < _ROOM[0] or high > _ROOM[1]:
         return []
-    return [
-        f"check: temperatures from {low:.4g} to {high:.4g} C would be room temperatures if in "
-        "kelvin"
-    ]
+    return [f"check: {low:.4g} to {high:.4g} C would be temperatures of a room if in kelvin"]
 
 
 def doubtful_modulus(modulus: Array) -> list[str]:
@@ -199,11 +196,9 @@ def doubtful_modulus(modulus: Array) -> list[str]:
     Examples
     --------
     >>> doubtful_modulus(np.array([1e-3, 2e-3]))
-    ['check: moduli from 0.001 to 0.002 Pa are unusual, below weak gels or above bone']
+    ['check: moduli of 0.001 to 0.002 Pa are below weak gels or above bone']
     """
     low, high = float(np.min(modulus)), float(np.max(modulus))
     if _SOFT <= high <= _HARD:
         return []
-    return [
-        f"check: moduli from {low:.2g} to {high:.2g} Pa are unusual, below weak gels or above bone"
-    ]
+    return [f"check: moduli of {low:.2g} to {high:.2g} Pa are below weak gels or above bone"]

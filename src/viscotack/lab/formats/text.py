@@ -295,13 +295,9 @@ def intervals(file: LabFile, rows: Sequence[Row]) -> list[Table]:
 
 def begins_interval(row: Sequence[str]) -> bool:
     """Return whether a row has a label and two integers: an interval and its count of points."""
-    return (
-        len(row) >= 3
-        and _LABEL.fullmatch(row[0]) is not None
-        and _WHOLE.fullmatch(row[1]) is not None
-        and _WHOLE.fullmatch(row[2]) is not None
-        and not any(cell.strip() for cell in row[3:])
-    )
+    first = zip((_LABEL, _WHOLE, _WHOLE), row, strict=False)
+    fits = len(row) >= 3 and all(pattern.fullmatch(cell) for pattern, cell in first)
+    return fits and not any(cell.strip() for cell in row[3:])
 
 
 def _blocks(
