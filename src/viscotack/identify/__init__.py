@@ -4,7 +4,7 @@ A fit goes from data over a model and a likelihood to a result; sentences are ma
 
 ============  ======================================================================
 data          ``pull_off``, ``rate_series``
-model         ``forward``, ``growth``, ``force_ratios``, ``simulated_tests``
+model         ``forward``, ``growth``, ``force_ratios``
 likelihood    ``likelihood``, ``covariances``, ``search``
 result        ``rate_fit``, ``edge_fit``, ``forecasting``, ``ranked_tests``
 sentences     ``words``

@@ -27,7 +27,6 @@ from viscotack.theory.crack.contact import (
     Curves,
     GrowingCracks,
     NeighbourEdges,
-    Profile,
     SpheresOnLayers,
     profile_of,
     recede,
@@ -247,10 +246,29 @@ class Forward:
         """
         work, gap, growth = interface
         self.check(compliance=stiffness, dwell=moves, growth=growth)
+        loads, none = np.broadcast_to(preload, speed.shape), np.zeros(speed.size)
+
+        def compute() -> Changed:
+            if isinstance(self.body, Layer):
+                return Changed(none + 1, none, _outside_layer(self.pulled(work, gap, speed, loads)))
+            rows = zip(loads.tolist(), speed.tolist(), moves or [()] * speed.size, strict=True)
+            problems = [
+                self.problem(work, gap, load, v, growth, stiffness=stiffness, moves=some)
+                for load, v, some in rows
+            ]
+            at_rest = not moves and stiffness is None
+            answers = _at_rest(problems) if at_rest else problems
+            columns = [_force_band_reason(*row) for row in zip(answers, speed, strict=True)]
+            force, band, refused = (np.array(column) for column in zip(*columns, strict=True))
+            if at_rest:
+                return Changed(none + 1, band, refused)
+            rigid = self.pulled(work, gap, speed, preload, growth=growth).force
+            unit = 1.5 * np.pi * self.radius * work
+            return Changed(np.where(refused == "", force * unit / rigid, 1.0), band, refused)
+
         numbers = _numbers(work, gap, speed, preload, *(growth or ()))
-        given = interface, speed, preload, stiffness, moves
         case = ("changed", *numbers, stiffness, moves)
-        return Changed(**self.stored(case, lambda: self._changed(*given)._asdict()))
+        return Changed(**self.stored(case, lambda: compute()._asdict()))
 
     def stored(self, case: tuple[Any, ...], compute: Arrays) -> Mapping[str, npt.NDArray[Any]]:
         """Return arrays that were computed for a case earlier, or compute them."""
@@ -264,33 +282,6 @@ class Forward:
     def _materials(self) -> tuple[Any, ...]:
         """Materials from which the cracks follow."""
         return (self.material,)
-
-    def _changed(
-        self,
-        interface: Interface,
-        speed: Array,
-        preload: Array,
-        stiffness: float | None,
-        moves: Sequence[tuple[Move, ...]],
-    ) -> Changed:
-        work, gap, growth = interface
-        loads, none = np.broadcast_to(preload, speed.shape), np.zeros(speed.size)
-        if isinstance(self.body, Layer):
-            return Changed(none + 1, none, _outside_layer(self.pulled(work, gap, speed, loads)))
-        problems = [
-            self.problem(work, gap, float(load), float(v), growth, stiffness=stiffness, moves=some)
-            for v, load, some in zip(speed, loads, moves or [()] * speed.size, strict=True)
-        ]
-        at_rest = not moves and stiffness is None
-        answers = _at_rest(problems) if at_rest else problems
-        rows = [_force_band_reason(*row) for row in zip(answers, speed, strict=True)]
-        force, band, refused = (np.array(column) for column in zip(*rows, strict=True))
-        if at_rest:
-            return Changed(none + 1, band, refused)
-        rigid = self.pulled(work, gap, speed, preload, growth=growth).force
-        unit = 1.5 * np.pi * self.radius * work
-        ratio = np.where(refused == "", force * unit / rigid, 1.0)
-        return Changed(ratio, band, refused)
 
     def layer_error(self, work: float, gap: float, speed: Array, preload: Array) -> Array:
         """Return the part of the theory's relative error by which it grows on thin layers."""
@@ -370,7 +361,13 @@ class Forward:
         rate = v * self.material.time_unit / h0 / mu
         beta = (self.radius**2 * w / modulus) ** (1 / 3)
         # relaxed sphere: radii in beta, forces in R dg
-        profile, start = self._rest(beta, P / (self.radius * w))
+        load, profile = P / (self.radius * w), profile_of(Sphere(radius=1.0))
+        if isinstance(self.body, Layer):
+            profile = SpheresOnLayers(self.body.thickness / beta, self.body.base)
+            start = profile.radius_at_force(load)
+        else:
+            unit = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+            start = np.asarray(jkr.contact_radius_at_force(load, **unit))
         edge: Any = self.edges(h0, Growth(*grown)) if grown else self.crack
         found = recede(edge, profile, radius=start, rate=rate, tabor=mu, radii=radii)
         energy = np.maximum(found.amplification, 1.0)
@@ -405,16 +402,6 @@ class Forward:
             zone,
             through,
         )
-
-    def _rest(self, beta: Array, load: Array) -> tuple[Profile, Array]:
-        """Return the profile, and the radii [beta] of relaxed contacts under loads [R dg]."""
-        if isinstance(self.body, Layer):
-            layers = SpheresOnLayers(self.body.thickness / beta, self.body.base)
-            return layers, layers.radius_at_force(load)
-        start = jkr.contact_radius_at_force(
-            load, radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
-        )
-        return profile_of(Sphere(radius=1.0)), np.asarray(start)
 
 
 def _numbers(*given: npt.ArrayLike) -> tuple[list[Any], ...]:

@@ -68,27 +68,6 @@ class Opening:
 
 
 @dataclass(frozen=True)
-class Share:
-    """Energy of the edge at the pull-off of one speed, split into bulk and interface.
-
-    Parameters
-    ----------
-    speed, edge_speed : float
-        Speed of the drive and of the edge [m/s].
-    energy : float
-        Energy per area of the edge [works of adhesion].
-    bulk, interface : float
-        Factors on the work of adhesion, due to bulk and interface.
-    """
-
-    speed: float
-    edge_speed: float
-    energy: float
-    bulk: float
-    interface: float
-
-
-@dataclass(frozen=True)
 class FoundGrowth:
     """Fitted growth of an interface with speed.
 
@@ -103,8 +82,9 @@ class FoundGrowth:
     better_by : float
         Reduction of the misfit compared with the best interface without growth, which has two
         parameters fewer.
-    shares : tuple of Share
-        Contributions of bulk and interface at the speeds of the series.
+    pulled : Pulled
+        Pull-offs at the speeds of the series, whose energy is the product of two factors on the
+        work of adhesion, by bulk and interface.
     """
 
     strengthening: float
@@ -112,7 +92,7 @@ class FoundGrowth:
     reference_speed: float
     exponent: float
     better_by: float
-    shares: tuple[Share, ...]
+    pulled: Pulled
 
     @property
     def chance(self) -> float:
@@ -133,12 +113,3 @@ def growing(forward: Forward, opening: Opening, gaps: tuple[float, float]) -> Fo
     )
     kept = partial(forward.stored, ("lattice", *given))
     return replace(forward, lattice=GrowingCracks(forward.material, *given, kept=kept))
-
-
-def shares_of(speed: Array, pulled: Pulled) -> tuple[Share, ...]:
-    """Return the contributions of bulk and interface to pull-offs at speeds."""
-    rows = zip(speed, pulled.crack_speed, pulled.energy, pulled.interface, strict=True)
-    return tuple(
-        Share(float(v), float(edge), float(energy), float(energy / work), float(work))
-        for v, edge, energy, work in rows
-    )

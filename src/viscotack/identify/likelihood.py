@@ -8,6 +8,7 @@ two to four parameters, a likelihood in microseconds and no gradients its walker
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -63,16 +64,12 @@ class Parameter:
                 f"{self.high:g}"
             )
 
-    def inner(self, value: float) -> float:
-        """Convert a parameter to its search coordinate."""
-        return float(np.log(value)) if self.logarithmic else value
+    def inner(self, value: Any) -> Any:
+        """Convert a value, or several, to the search coordinate."""
+        return np.log(value) if self.logarithmic else value
 
-    def outer(self, inner: float) -> float:
-        """Convert a search coordinate to the parameter."""
-        return float(self.outer_of(np.asarray(inner)))
-
-    def outer_of(self, inner: Array) -> Array:
-        """Convert search coordinates to parameters."""
+    def outer(self, inner: Any) -> Any:
+        """Convert a search coordinate, or several, to the parameter."""
         return np.exp(inner) if self.logarithmic else inner
 
 
@@ -128,11 +125,17 @@ class Objective:
     residuals: Residuals
     parameters: tuple[Parameter, ...]
 
+    @staticmethod
+    def ends(parameters: Sequence[Parameter]) -> tuple[Array, Array]:
+        """Return the bounds of parameters in search coordinates."""
+        low, high = zip(*((p.inner(p.low), p.inner(p.high)) for p in parameters), strict=True)
+        return np.array(low), np.array(high)
+
     def log_density(self, inner: Array) -> float:
         """Return the log-likelihood plus log-prior, up to a constant, for a sampler."""
-        for parameter, x in zip(self.parameters, inner, strict=True):
-            if not parameter.inner(parameter.low) <= x <= parameter.inner(parameter.high):
-                return -np.inf
+        low, high = self.ends(self.parameters)
+        if not np.all((low <= inner) & (inner <= high)):
+            return -np.inf
         rest = self._rest(inner, self.parameters, {})
         return -0.5 * float(rest @ rest)
 
@@ -144,8 +147,7 @@ class Objective:
             rest = self._rest(np.zeros(0), free, held)
             return Best(dict(held), float(rest @ rest), rest.size)
         start = [p.inner(p.start if near is None else near.values[p.name]) for p in free]
-        low = np.array([p.inner(p.low) for p in free])
-        high = np.array([p.inner(p.high) for p in free])
+        low, high = self.ends(free)
         margin = _BEYOND * (high - low)
         found = least_squares(
             self._rest,
@@ -155,7 +157,7 @@ class Objective:
             x_scale=np.array([1.0 if p.logarithmic else (p.high - p.low) / 10 for p in free]),
             diff_step=1e-5,
         )
-        values = {p.name: p.outer(x) for p, x in zip(free, found.x, strict=True)}
+        values = {p.name: float(p.outer(x)) for p, x in zip(free, found.x, strict=True)}
         return Best(values | dict(held), 2 * float(found.cost), found.fun.size)
 
     def best_near(self, starts: Sequence[Best]) -> Best:
@@ -194,7 +196,8 @@ class Objective:
             self._end(parameter, middle, parameter.inner(bound), limit, best)
             for bound in (parameter.low, parameter.high)
         )
-        return Interval(parameter.outer(low), parameter.outer(high), below, above, first or second)
+        ends = float(parameter.outer(low)), float(parameter.outer(high))
+        return Interval(*ends, below, above, first or second)
 
     def _end(
         self, parameter: Parameter, middle: float, bound: float, limit: float, best: Best
@@ -237,7 +240,9 @@ class Objective:
         for parameter in self.parameters:
             if intervals[parameter.name].split:
                 for one in self._others(parameter, best, intervals[parameter.name], limit):
-                    if not any(_equal(one, other) for other in found):
+                    values = list(one.values.values())
+                    others = (list(other.values.values()) for other in found)
+                    if not any(np.allclose(values, other, rtol=_SAME) for other in others):
                         found.append(one)
         return tuple(sorted(found, key=lambda one: one.misfit))
 
@@ -265,10 +270,6 @@ class Objective:
             if p.prior is not None
         ]
         return np.concatenate([self.residuals(values), priors])
-
-
-def _equal(one: Best, other: Best) -> bool:
-    return bool(np.allclose(list(one.values.values()), list(other.values.values()), rtol=_SAME))
 
 
 @dataclass(frozen=True, eq=False)
@@ -328,33 +329,6 @@ def posterior(
     ----------
     Foreman-Mackey et al., emcee: the MCMC hammer (2013), doi:10.1086/670067.
     """
-    starts = (best, *others)
-    chains = [_sampled(objective, one, seed + i) for i, one in enumerate(starts)]
-    rows = zip(starts, chains, strict=True)
-    evidence = np.array([_volume(inner) - one.misfit / 2 for one, (inner, _) in rows])
-    shares = np.exp(evidence - evidence.max())
-    counts = np.round(shares / shares.sum() * chains[0][0].shape[0]).astype(int)
-    rng = np.random.default_rng(seed)
-    inner = np.concatenate(
-        [
-            chain if count == len(chain) else rng.choice(chain, count)
-            for (chain, _), count in zip(chains, counts, strict=True)
-        ]
-    )
-    parameters = objective.parameters
-    values = [p.outer_of(x) for p, x in zip(parameters, inner.T, strict=True)]
-    time = max(time for _, time in chains)
-    enough = _STEPS * _WALKERS > _INDEPENDENT * time
-    return Posterior(parameters, np.stack(values, axis=1), time, enough)
-
-
-def _volume(inner: Array) -> float:
-    """Return the logarithm of the volume of a cloud of samples, up to a constant."""
-    return float(np.linalg.slogdet(np.atleast_2d(np.cov(inner.T)))[1]) / 2
-
-
-def _sampled(objective: Objective, best: Best, seed: int) -> tuple[Array, float]:
-    """Return samples around one solution in search coordinates, and the correlation time."""
     try:
         import emcee
     except ImportError as error:
@@ -363,16 +337,31 @@ def _sampled(objective: Objective, best: Best, seed: int) -> tuple[Array, float]
         ) from error
 
     parameters = objective.parameters
-    low = np.array([p.inner(p.low) for p in parameters])
-    high = np.array([p.inner(p.high) for p in parameters])
-    middle = np.array([p.inner(best.values[p.name]) for p in parameters])
+    low, high = objective.ends(parameters)
+    span, count = high - low, len(parameters)
+    chains, evidence, times = [], [], []
+    for own, one in enumerate((best, *others), start=seed):
+        middle = np.array([p.inner(one.values[p.name]) for p in parameters])
+        noise = np.random.default_rng(own).standard_normal((_WALKERS, count))
+        begin = np.clip(middle + _AROUND * span * noise, low + 1e-6 * span, high - 1e-6 * span)
+        sampler = emcee.EnsembleSampler(_WALKERS, count, objective.log_density)
+        sampler.random_state = np.random.RandomState(own).get_state()
+        state = sampler.run_mcmc(begin, _BEGIN)
+        sampler.reset()
+        sampler.run_mcmc(state, _STEPS)
+        times.append(float(np.max(sampler.get_autocorr_time(quiet=True, tol=0))))
+        chains.append(np.asarray(sampler.get_chain(flat=True)))
+        # ln of the volume of the cloud of samples, up to a constant
+        volume = np.linalg.slogdet(np.atleast_2d(np.cov(chains[-1].T)))[1] / 2
+        evidence.append(volume - one.misfit / 2)
+    shares = np.exp(np.array(evidence) - max(evidence))
+    counts = np.round(shares / shares.sum() * len(chains[0])).astype(int)
     rng = np.random.default_rng(seed)
-    begin = middle + _AROUND * (high - low) * rng.standard_normal((_WALKERS, middle.size))
-    margin = 1e-6 * (high - low)
-    sampler = emcee.EnsembleSampler(_WALKERS, middle.size, objective.log_density)
-    sampler.random_state = np.random.RandomState(seed).get_state()
-    state = sampler.run_mcmc(np.clip(begin, low + margin, high - margin), _BEGIN)
-    sampler.reset()
-    sampler.run_mcmc(state, _STEPS)
-    time = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
-    return np.asarray(sampler.get_chain(flat=True)), time
+    kept = [
+        chain if count == len(chain) else rng.choice(chain, count)
+        for chain, count in zip(chains, counts, strict=True)
+    ]
+    columns = zip(parameters, np.concatenate(kept).T, strict=True)
+    values = np.stack([one.outer(x) for one, x in columns], axis=1)
+    enough = _STEPS * _WALKERS > _INDEPENDENT * max(times)
+    return Posterior(parameters, values, max(times), enough)

@@ -241,77 +241,60 @@ def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     tests = [[one for same in times for one in same] for times in groups]
     several = [len(times) > 1 for times in groups]
     forces = [
-        of_one_time(same) if more else [one.pull_off_force.value for one in same]
+        of_one_time(same) if more else _forces(same)
         for same, more in zip(tests, several, strict=True)
     ]
     repeats = pooled(forces).less(sum(several))
     found = []
     for times, same, mean, far in zip(groups, tests, repeats.means, repeats.far, strict=True):
-        speed = float(np.mean([cycle.speed.value for cycle in same]))
-        means = [mean]
-        if len(times) > 1:
-            rows = [[one.pull_off_force.value for one in each] for each in times]
-            means = list(pooled(rows).means)
-        remarks = _remarks(same, speed, mean, repeats, far)
+        speed = _mean([cycle.speed.value for cycle in same])
+        at = readable(speed, "m/s", digits=3)
+        remarks = tuple(
+            f"one of {len(same)} tests at {at} is far from the others there and counts little: "
+            f"{readable(same[i].pull_off_force.value, 'N', digits=3)}, their mean is "
+            f"{readable(mean, 'N', digits=3)} (scatter of single tests {repeats.scatter:.1%})"
+            for i in far
+        )
+        means = pooled([_forces(each) for each in times]).means if len(times) > 1 else [mean]
         for each, middle in zip(times, means, strict=True):
             found.append(_mean_of(each, speed, middle, repeats, remarks))
             remarks = ()
     return found
 
 
-def _remarks(
-    same: Sequence[Cycle], speed: float, mean: float, repeats: Repeats, far: Sequence[int]
-) -> tuple[str, ...]:
-    """Return a sentence on each test that is far from the others at its speed."""
-    at = readable(speed, "m/s", digits=3)
-    return tuple(
-        f"one of {len(same)} tests at {at} is far from the others there and counts little: "
-        f"{readable(same[i].pull_off_force.value, 'N', digits=3)}, their mean is "
-        f"{readable(mean, 'N', digits=3)} (scatter of single tests {repeats.scatter:.1%})"
-        for i in far
-    )
-
-
 def _mean_of(
     same: Sequence[Cycle], speed: float, mean: float, repeats: Repeats, remarks: tuple[str, ...]
 ) -> PullOff:
-    own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
-    spread = mean * repeats.uncertainty(len(same))
+    """Return the mean of tests at one speed, with what all of them have."""
+    own = _mean([cycle.pull_off_force.uncertainty for cycle in same])
     begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
     times = [time for cycle in same if (time := contact_time(cycle)) is not None]
+    curves = [row for cycle in same if (row := travels(cycle)) is not None]
+    approaches = [cycle.approach_speed for cycle in same if cycle.approach_speed]
+    peak, history = _mean([cycle.preload.value for cycle in same]), None
+    if len(approaches) == len(same) and peak > 0:
+        history = History(_mean(approaches), peak, _mean([cycle.dwell_time for cycle in same]))
     return PullOff(
         speed,
-        Measured(mean, float(np.hypot(own, spread))),
-        float(np.mean(begins)) if min(begins) > 0 else None,
-        _mean([travels(cycle) for cycle in same]),
-        remarks,
-        _history(same),
-        temperature_of(same),
-        between_tests=repeats.uncertainty(1),
-        contact_time=float(np.exp(np.mean(np.log(times)))) if len(times) == len(same) else None,
-    )
-
-
-def _history(same: Sequence[Cycle]) -> History | None:
-    """Return the mean history; None if the speed of an approach is not known."""
-    speeds = [one.approach_speed for one in same if one.approach_speed]
-    if len(speeds) < len(same):
-        return None
-    peak = float(np.mean([one.preload.value for one in same]))
-    dwell = float(np.mean([one.dwell_time for one in same]))
-    return History(float(np.mean(speeds)), peak, dwell) if peak > 0 else None
-
-
-def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:
-    """Return the mean travels; None if a curve has none."""
-    told = [row for row in rows if row is not None]
-    if len(told) < len(rows):
-        return None
-    columns = list(zip(*told, strict=True))
-    return tuple(
-        Measured(
-            float(np.mean([one.value for one in column])),
-            float(np.mean([one.uncertainty for one in column])),
+        Measured(mean, float(np.hypot(own, mean * repeats.uncertainty(len(same))))),
+        preload=_mean(begins) if min(begins) > 0 else None,
+        travels=tuple(
+            Measured(_mean([x.value for x in column]), _mean([x.uncertainty for x in column]))
+            for column in zip(*curves, strict=True)
         )
-        for column in columns
+        if len(curves) == len(same)
+        else None,
+        remarks=remarks,
+        history=history,
+        temperature=temperature_of(same),
+        between_tests=repeats.uncertainty(1),
+        contact_time=float(np.exp(_mean(np.log(times)))) if len(times) == len(same) else None,
     )
+
+
+def _forces(cycles: Sequence[Cycle]) -> list[float]:
+    return [one.pull_off_force.value for one in cycles]
+
+
+def _mean(values: Sequence[float] | Array) -> float:
+    return float(np.mean(values))

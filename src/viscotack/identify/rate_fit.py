@@ -1,7 +1,7 @@
 r"""Identify the interface from a rate series: pull-off forces at several speeds, and a material.
 
 The forward model is the contact whose edge is a steady crack (:mod:`.forward`), and simulation
-where that does not hold (:mod:`.simulated_tests`). Pull-off forces are computed on a grid of works
+where that does not hold (:mod:`.force_ratios`). Pull-off forces are computed on a grid of works
 of adhesion and ranges and interpolated in logarithms (:mod:`.search`), so that the
 search and its intervals are fast. Noise of the forces, error of the forward model
 and uncertainty of material, temperature and machine (:mod:`.covariances`) form one covariance of
@@ -24,9 +24,9 @@ from viscotack.units import readable
 from .computed import Computed
 from .covariances import joint_covariance, shift_covariance
 from .edge_fit import EdgeFit, identify_edge
-from .force_ratios import Simulations, yielding_near
+from .force_ratios import Simulations, with_simulations, yielding_near
 from .forward import Changed, Forward, Interface
-from .growth import FoundGrowth, growing, shares_of
+from .growth import FoundGrowth, growing
 from .likelihood import Best
 from .pull_off import PullOff
 from .rate_series import RateSeries
@@ -40,7 +40,6 @@ from .search import (
     settled,
     widely,
 )
-from .simulated_tests import with_simulations
 from .words import fit_words
 
 _OVER = 1.2  # overshoot of the limit on a layer that is left
@@ -260,7 +259,7 @@ def _check_place(search: Search, best: Best) -> None:
     """
     series, gap = search.series, search.interface(best.values).gap
     simulated, grown = search.ratio.which, search.grown(best.values)
-    if not simulated and search.table.effective(best.values, grown) < LEAST_TABOR:
+    if not simulated and search.table.at(best.values, grown)[:, 1].min() < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {readable(gap, 'm', digits=3)}, has a cohesive zone as large "
             "as the contact, so the theory does not hold: simulate"
@@ -279,7 +278,6 @@ def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
     search, best = found.search, found.best
     if search.opening is None:
         return None
-    pulled = search.tests.pulled(search.interface(best.values))
     without = replace(search, table=plain.table, opening=None).best()
     return FoundGrowth(
         strengthening=best.values["strengthening"],
@@ -287,5 +285,5 @@ def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
         reference_speed=float(search.opening.growth(best.values).reference_speed),
         exponent=best.values["exponent"],
         better_by=max(without.misfit - best.misfit, 0.0),
-        shares=shares_of(search.series.speed, pulled),
+        pulled=search.tests.pulled(search.interface(best.values)),
     )

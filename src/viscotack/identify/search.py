@@ -86,17 +86,22 @@ class Table:
             columns.append(np.log(found.travels))
         return cls(axes, np.concatenate(columns, axis=-1))
 
-    def __call__(self, values: Mapping[str, float], grown: Array | None = None) -> Array:
-        """Return forces [N], shape (S,); the work of adhesion of each is `grown` times as large."""
-        return np.exp(self._at(values, grown)[:, 0])
+    def at(self, values: Mapping[str, float], grown: Array | None = None) -> Array:
+        """Return columns of force [N], effective Tabor number and travels [m], a row for each test.
 
-    def effective(self, values: Mapping[str, float], grown: Array | None = None) -> float:
-        """Return the smallest effective Tabor number of the series."""
-        return float(np.exp(self._at(values, grown)[:, 1].min()))
-
-    def travels(self, values: Mapping[str, float], grown: Array | None = None) -> Array:
-        """Return travels between forces [m], shape (S, travels)."""
-        return np.exp(self._at(values, grown)[:, 2:])
+        The work of adhesion of each test is `grown` times as large.
+        """
+        point = np.array([_inner(name, values[name]) for name in self.axes])
+        if grown is None:
+            return np.exp(self._spline(point))
+        factors, at = np.unique(grown, return_inverse=True)
+        works = point[0] + np.log(factors)
+        points = np.tile(point, (factors.size, 1))
+        points[:, 0] = np.clip(works, *np.log(self.axes["work_of_adhesion"][[0, -1]]))
+        found = self._spline(points)
+        # beyond the table forces are proportional to the work
+        found[..., 0] += (works - points[:, 0])[:, None]
+        return np.exp(found[at, np.arange(at.size)])
 
     def forces(self, points: Array) -> Array:
         """Return forces of many interfaces, shape (N, S), at points of :meth:`dense`."""
@@ -112,19 +117,6 @@ class Table:
             place = np.linspace(0, x.size - 1, times * (x.size - 1) + 1)
             axes.append(np.interp(place, np.arange(x.size), _inner(name, x)))
         return np.stack([x.ravel() for x in np.meshgrid(*axes, indexing="ij")], axis=1)
-
-    def _at(self, values: Mapping[str, float], grown: Array | None) -> Array:
-        point = np.array([_inner(name, values[name]) for name in self.axes])
-        if grown is None:
-            return self._spline(point)
-        factors, at = np.unique(grown, return_inverse=True)
-        works = point[0] + np.log(factors)
-        points = np.tile(point, (factors.size, 1))
-        points[:, 0] = np.clip(works, *np.log(self.axes["work_of_adhesion"][[0, -1]]))
-        found = self._spline(points)
-        # beyond the table forces are proportional to the work
-        found[..., 0] += (works - points[:, 0])[:, None]
-        return found[at, np.arange(at.size)]
 
 
 def lattice(axes: Mapping[str, Array]) -> dict[str, Array]:
@@ -235,11 +227,9 @@ class Search:
         shapes = _shapes(self.series) if self.series.curves and self.some is None else None
 
         def residuals(values: Mapping[str, float]) -> Array:
-            grown = self.grown(values)
-            rest = white @ self._relative(table(values, grown), values)
-            if shapes is None:
-                return rest
-            return np.concatenate([rest, shapes(table.travels(values, grown))])
+            found = table.at(values, self.grown(values))
+            rest = white @ self._relative(found[:, 0], values)
+            return rest if shapes is None else np.concatenate([rest, shapes(found[:, 2:])])
 
         return Objective(residuals, self.parameters)
 
@@ -326,7 +316,7 @@ class Search:
         """Return the parameters by name from search coordinates."""
         # a point of the table has no growth in time, which is the last parameter
         rows = zip(self.parameters, inner, strict=False)
-        return {PER_DECADE: 0.0} | {one.name: one.outer_of(x) for one, x in rows}
+        return {PER_DECADE: 0.0} | {one.name: one.outer(x) for one, x in rows}
 
     def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
         """Return relative residuals of forces by theory, corrected to those of the tests."""
@@ -363,7 +353,7 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
         "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
     }
     for one, step in zip(UNKNOWNS, steps, strict=True):
-        axes[one.name] = one.outer_of(_spaced(one.inner(one.low), one.inner(one.high), step))
+        axes[one.name] = one.outer(_spaced(one.inner(one.low), one.inner(one.high), step))
     case = series.speed[some], series.load[some], axes
     table = Table.of_cracks(forward, *case, opening=opening, radii=_COARSE_RADII)
     return replace(plain, forward=forward, table=table, opening=opening, some=some)
@@ -458,7 +448,8 @@ class SeriesFit(Settled):
     def forces(self) -> tuple[float, ...]:
         """Pull-off forces of the most likely parameters at the measured speeds [N]."""
         search, values = self.search, self.best.values
-        return tuple((search.table(values, search.grown(values)) * search.ratio(values)).tolist())
+        found = search.table.at(values, search.grown(values))[:, 0] * search.ratio(values)
+        return tuple(found.tolist())
 
     @property
     def objective(self) -> Objective:
@@ -575,21 +566,21 @@ def closely(coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]
             one, step = widest[name], np.diff(np.unique(points[:, i])).max()
             low = max(near[:, i].min() - step, one.inner(one.low))
             high = min(near[:, i].max() + step, one.inner(one.high))
-            axes[name] = one.outer_of(_spaced(low, high, apart))
+            axes[name] = one.outer(_spaced(low, high, apart))
         case = coarse.forward, series.speed, series.load, axes
         how: dict[str, Any] = {"opening": coarse.opening, "travels": series.curves}
         table = Table.of_cracks(*case, **how, radii=_FINE_RADII)
         found = settled(replace(coarse, table=table, some=None))
         intervals = found.search.intervals(found.best, level)
-        if not any(_cut(intervals[name], axes[name], widest[name]) for name in axes):
+        # an interval that ends at the edge of the table inside the search range is cut
+        if not any(
+            (not ends.closed_below and axes[name][0] > widest[name].low * (1 + 1e-9))
+            or (not ends.closed_above and axes[name][-1] < widest[name].high * (1 - 1e-9))
+            for name, ends in intervals.items()
+            if name in axes
+        ):
             break
     return found, intervals
-
-
-def _cut(interval: Interval, axis: Array, widest: Parameter) -> bool:
-    """Return whether an interval ends at the edge of a table inside the search range."""
-    below = not interval.closed_below and axis[0] > widest.low * (1 + 1e-9)
-    return below or (not interval.closed_above and axis[-1] < widest.high * (1 - 1e-9))
 
 
 def _spaced(low: float, high: float, apart: float) -> Array:

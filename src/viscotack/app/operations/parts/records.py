@@ -157,9 +157,15 @@ def rates_record(fit: Any) -> dict[str, Any]:
         layer = read(body, "thickness_m", "poisson_ratio") | {"base": body.base.word}
     if fit.growth is not None:
         names = ("strengthening", "opening_speed_m_s", "exponent", "reference_speed_m_s")
-        shares = ("speed_m_s", "edge_speed_m_s", "energy", "bulk", "interface")
-        growth = read(fit.growth, *names, "better_by", "chance")
-        growth["shares"] = [read(one, *shares) for one in fit.growth.shares]
+        growth, pulled = read(fit.growth, *names, "better_by", "chance"), fit.growth.pulled
+        shares = {
+            "speed_m_s": fit.given.speed,
+            "edge_speed_m_s": pulled.crack_speed,
+            "energy": pulled.energy,
+            "bulk": pulled.energy / pulled.interface,
+            "interface": pulled.interface,
+        }
+        growth["shares"] = rows_of(shares)
     return {
         **interface_record(fit),
         "range_bound_m": fit.given.range_bound,
