@@ -131,14 +131,15 @@ def forecast_rates(
         )
     known = fit.forward.beside(passport.material)
     tests = fit.search.tests._replace(forward=known, passport=passport).of(trials)
-    v, time, grown = tests.speed, None, np.ones(len(trials))
-    if given.decades is not None:
-        time = np.full(v.size, given.middle_time)
-        if dwell is not None:
-            load = float(tests.load[0])
-            curves = (known.curve(work, gap, each, load, law) for each in v.tolist())
-            time = dwell + np.array([_way(*curve, given.stiffness) for curve in curves]) / v
-        grown += fit.best.values[PER_DECADE] * np.log10(time / given.middle_time)
+    v, time, grown = tests.speed, given.middle_times(len(trials)), 1.0
+    if time is not None:
+        # with the way of the drive from the start of the retraction to its pull-off
+        for i, each in enumerate([] if dwell is None else v.tolist()):
+            depth, force = known.curve(work, gap, each, float(tests.load[0]), law)
+            off = int(np.argmin(force))
+            spring = 0.0 if given.stiffness is None else (force[0] - force[off]) / given.stiffness
+            time[i] = (dwell or 0.0) + (depth[0] - depth[off] + spring) / each
+        grown = 1 + fit.best.values[PER_DECADE] * np.log10(time / given.middle_time)
     middle = tests.pulled(Interface(work * grown, gap, law))
     changed = tests.changed(fit.interface)
     chain = fit.sampled()
@@ -196,7 +197,7 @@ def forecast_edge(
         model=edge_forces(given, fit.best.values, v, tests.load),
         comparable=True,
         dwell=None,
-        contact_time=None if given.decades is None else np.full(v.size, given.middle_time),
+        contact_time=given.middle_times(v.size),
     )
     return replace(forecast, words=tuple(forecast_words(fit, forecast)))
 
@@ -229,7 +230,10 @@ def _banded(
     """
     (moved, left), v, preload = logs, tests.speed, float(tests.load[0])
     rng = np.random.default_rng(0)
-    noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
+    # a square root of the covariance, which may be singular
+    values, vectors = np.linalg.eigh((left + left.T) / 2)
+    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
     sample = (np.exp(moved + noise) * ratio).reshape(-1, v.size)
     slower, uncertain = _slower(fit, v, preload, comparable)
     part = (1 - fit.level) / 2
@@ -263,13 +267,6 @@ def _banded(
         raised=raised,
         **known,
     )
-
-
-def _way(depth: Array, force: Array, stiffness: float | None) -> float:
-    """Return the way of the drive [m] from the start of a retraction to its pull-off."""
-    off = int(np.argmin(force))
-    spring = 0.0 if stiffness is None else float(force[0] - force[off]) / stiffness
-    return float(depth[0] - depth[off]) + spring
 
 
 def _departure(fit: SeriesFit, speed: Array, part: float) -> Array:
@@ -389,9 +386,3 @@ def _slower(fit: SeriesFit, speed: Array, preload: float, comparable: bool) -> t
         parts = one.force.uncertainty / one.force.value, fit.given.scatter, fit.between_speeds
         slower[at], uncertain[at] = force, np.linalg.norm(parts)
     return slower, uncertain
-
-
-def _root(covariance: Array) -> Array:
-    """Return a square root of a covariance that may be singular."""
-    values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
-    return vectors * np.sqrt(np.maximum(values, 0.0))

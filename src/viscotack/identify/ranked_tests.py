@@ -34,7 +34,6 @@ from .search import LEAST_TABOR
 _DRAWS, _STEP, _MOST = 100, 0.05, 500
 # Least noise of a test [-]; a rig without scatter would make every test decisive.
 _QUIET = 1e-3
-INTERFACE = "interface"
 
 
 @dataclass(frozen=True)
@@ -91,7 +90,7 @@ def next_tests(
     fit: RateSeriesFit,
     candidates: Sequence[Trial],
     *,
-    wanted: Sequence[Trial] | str = INTERFACE,
+    wanted: Sequence[Trial] = (),
     noise: float | None = None,
     repeats: int = 1,
     count: int = 3,
@@ -104,8 +103,8 @@ def next_tests(
         Fit of the series measured so far.
     candidates : sequence of Trial
         Tests that can be made, at the temperature of the series.
-    wanted : sequence of Trial, or "interface"
-        Tests whose forces are forecast, or work of adhesion and range themselves.
+    wanted : sequence of Trial
+        Tests whose forces are forecast; by default work of adhesion and range are wanted.
     noise : float, optional
         Relative standard deviation of the force of one test; by default that of the series.
     repeats : int
@@ -125,15 +124,11 @@ def next_tests(
     ValueError
         If an argument is invalid.
     """
-    about_interface = isinstance(wanted, str)
-    if isinstance(wanted, str) and wanted != INTERFACE:
-        raise InputError(f"wanted must be tests or {INTERFACE!r}, got {wanted!r}")
-    own = fit.search.tests
-    asked = [] if isinstance(wanted, str) else [own.stated(one) for one in wanted]
-    tests = [own.stated(one) for one in candidates]
-    if not 0 < len(tests) <= _MOST or len(asked) > _MOST or not (about_interface or asked):
+    stated = fit.search.tests.stated
+    tests, asked = [stated(one) for one in candidates], [stated(one) for one in wanted]
+    if not 0 < len(tests) <= _MOST or len(asked) > _MOST:
         raise InputError(
-            f"give 1 to {_MOST} candidates and 1 to {_MOST} wanted tests; got {len(tests)} and "
+            f"give 1 to {_MOST} candidates and up to {_MOST} wanted tests; got {len(tests)} and "
             f"{len(asked)}"
         )
     if repeats < 1 or count < 1:
@@ -149,41 +144,48 @@ def next_tests(
     tests = [each for each in tests if not why[each]]
     if not tests:
         raise OutOfRange(f"the theory holds for none of the tests: {refused[0][1]}")
-    mean, covariance = _joint(fit, [*tests, *asked], about_interface)
+    mean, covariance = _joint(fit, [*tests, *asked], about_interface=not asked)
     n, variance = len(tests), one**2 / repeats
-    now = _left(covariance, n)
+
+    def after(covariance: Array, test: int) -> Array:
+        """Return the covariance after a test."""
+        column = covariance[:, test]
+        return covariance - np.outer(column, column) / (column[test] + variance)
+
+    def left(covariance: Array) -> float:
+        """Return the root mean square deviation of the wanted answers, which follow the tests."""
+        return float(np.sqrt(max(np.mean(np.diag(covariance)[n:]), 0.0)))
+
+    now = left(covariance)
+    forces, uncertain = np.exp(mean).tolist(), np.sqrt(np.diag(covariance)).tolist()
     ranked = [
-        RankedTest(
-            each,
-            float(np.exp(mean[i])),
-            float(np.sqrt(covariance[i, i])),
-            _left(_measured(covariance, i, variance), n),
-        )
+        RankedTest(each, forces[i], uncertain[i], left(after(covariance, i)))
         for i, each in enumerate(tests)
     ]
     sequence: list[RankedTest] = []
     for _ in range(min(count, n)):
-        after = [_measured(covariance, i, variance) for i in range(n)]
-        best = int(np.argmin([_left(x, n) for x in after]))
-        covariance = after[best]
-        sequence.append(replace(ranked[best], left=_left(covariance, n)))
-    return NextTests(
-        ranked=tuple(sorted(ranked, key=lambda x: x.left)),
-        sequence=tuple(sequence),
-        now=now,
-        noise=one,
-        refused=refused,
-        words=tuple(_words(fit, about_interface)),
-    )
+        best = int(np.argmin([left(after(covariance, i)) for i in range(n)]))
+        covariance = after(covariance, best)
+        sequence.append(replace(ranked[best], left=left(covariance)))
+    words = []
+    if fit.ageing is not None:
+        words.append(f"all tests are {readable(fit.given.middle_time, 's', digits=2)} in contact")
+    if len(fit.solutions) > 1:
+        words.append(
+            f"{len(fit.solutions)} separate interfaces fit the series; the ranking takes their "
+            "samples as one normal distribution"
+        )
+    what = "ln(force) of the forecast" if asked else "ln(work of adhesion) and ln(range)"
+    words.append(f"now, and left with a test: standard deviation of {what}, root mean square")
+    order = tuple(sorted(ranked, key=lambda x: x.left))
+    return NextTests(order, tuple(sequence), now, one, refused, tuple(words))
 
 
 def noise_of(fit: RateSeriesFit) -> float:
     """Return the relative noise of a test of a series: median over its speeds."""
-    rows = [
-        (x.force.uncertainty / x.force.value, fit.given.scatter, fit.between_speeds)
-        for x in fit.series
-    ]
-    return float(np.median([np.linalg.norm(row) for row in rows]))
+    given = fit.given.scatter, fit.between_speeds
+    rows = [(x.force.uncertainty / x.force.value, *given) for x in fit.series]
+    return float(np.median(np.linalg.norm(rows, axis=1)))
 
 
 def _invalid(fit: RateSeriesFit, trial: Trial) -> str:
@@ -204,7 +206,7 @@ def _invalid(fit: RateSeriesFit, trial: Trial) -> str:
 
 
 def _joint(
-    fit: RateSeriesFit, tests: Sequence[Trial], about_interface: bool
+    fit: RateSeriesFit, tests: Sequence[Trial], *, about_interface: bool
 ) -> tuple[Array, Array]:
     """Return mean and joint covariance of ln of the forces, and of work and range if wanted."""
     draws = fit.sampled().thinned(_DRAWS)
@@ -215,16 +217,16 @@ def _joint(
         for _, same in groupby((tests[i] for i in order), key=lambda x: x.radius)
     ]
     model = ModelError.of_theory(fit.given.theory_error, len(tests))
-    moved, left = conditioned(fit, groups, draws, model)
+    moved, spread = conditioned(fit, groups, draws, model)
     back = np.argsort(order)
-    moved, left = moved[:, back], left[np.ix_(back, back)]
+    moved, spread = moved[:, back], spread[np.ix_(back, back)]
     for i, each in enumerate(tests):
         if each.dwell is not None:
             moved[:, i] += _history_effect(fit, each, interfaces)
     if about_interface:
         moved = np.concatenate([moved, interfaces], axis=1)
-        left = np.pad(left, (0, 2))
-    return moved.mean(axis=0), np.cov(moved.T) + left
+        spread = np.pad(spread, (0, 2))
+    return moved.mean(axis=0), np.cov(moved.T) + spread
 
 
 def _history_effect(fit: RateSeriesFit, trial: Trial, interfaces: Array) -> Array:
@@ -244,27 +246,3 @@ def _history_effect(fit: RateSeriesFit, trial: Trial, interfaces: Array) -> Arra
     own = ratio(middle)
     slopes = np.array([(ratio(middle + step) - own) / _STEP for step in _STEP * np.eye(2)])
     return own + (interfaces - middle) @ slopes
-
-
-def _measured(covariance: Array, number: int, noise: float) -> Array:
-    """Return the covariance after a test with a variance of its noise."""
-    column = covariance[:, number]
-    return covariance - np.outer(column, column) / (column[number] + noise)
-
-
-def _left(covariance: Array, tests: int) -> float:
-    """Return the root mean square deviation of the wanted answers, which follow the tests."""
-    return float(np.sqrt(max(np.mean(np.diag(covariance)[tests:]), 0.0)))
-
-
-def _words(fit: RateSeriesFit, about_interface: bool) -> list[str]:
-    said = []
-    if fit.ageing is not None:
-        said.append(f"all tests are {readable(fit.given.middle_time, 's', digits=2)} in contact")
-    if len(fit.solutions) > 1:
-        said.append(
-            f"{len(fit.solutions)} separate interfaces fit the series; the ranking takes their "
-            "samples as one normal distribution"
-        )
-    what = "ln(work of adhesion) and ln(range)" if about_interface else "ln(force) of the forecast"
-    return [*said, f"now, and left with a test: standard deviation of {what}, root mean square"]

@@ -71,7 +71,12 @@ def shifted(tests: Sequence[PullOff], passport: Passport, growth: bool = False) 
         raise InputError(
             f"{error}; to take all tests at one temperature, set `temperature`"
         ) from None
-    found = [_at(one, factor) for one, factor in zip(tests, factors, strict=True)]
+    found = []
+    for one, factor in zip(tests, factors, strict=True):
+        more, past = factor / one.shift, one.history
+        if past is not None:
+            past = History(more * past.approach_speed, past.peak, past.dwell / more)
+        found.append(replace(one, speed=more * one.speed, shift=factor, history=past))
     return sorted(found, key=lambda one: one.speed)
 
 
@@ -91,14 +96,6 @@ def apart(tests: Sequence[PullOff], passport: Passport) -> bool:
     if reference is None or not known:
         return False
     return abs((min(known) + max(known)) / 2 - reference) > DIFFERENT
-
-
-def _at(one: PullOff, factor: float) -> PullOff:
-    """Return a pull-off with the speed that is equivalent at the reference temperature."""
-    more, history = factor / one.shift, one.history
-    if history is not None:
-        history = History(more * history.approach_speed, history.peak, history.dwell / more)
-    return replace(one, speed=more * one.speed, shift=factor, history=history)
 
 
 def assumed_temperature(passport: Passport, known: Sequence[float | None]) -> list[str]:
@@ -215,22 +212,15 @@ class RateSeries:
             raise InputError(f"the pull-off at {without[0]} has no preload; state it by preload")
         tests = shifted(tests, self.passport, self.growth)
         object.__setattr__(self, "tests", tuple(tests))
-        self._check_tests()
-        self._check_numbers()
-        if self.decades is not None and not self.history:
-            shifts = np.array([one.shift for one in self.tests])
-            check_relaxed(self.passport.material, self.contact_times / shifts)
-
-    def _check_tests(self) -> None:
-        speeds = {one.speed for one in self.tests}
-        if self.curves and any(one.travels is None for one in self.tests):
+        speeds = {one.speed for one in tests}
+        if self.curves and any(one.travels is None for one in tests):
             raise InputError(
                 "curves must begin in compression and have points up to the pull-off; omit curves"
             )
-        if not self.curves and len(speeds) < 2 or not 0 < len(self.tests) <= _MOST:
+        if not self.curves and len(speeds) < 2 or not 0 < len(tests) <= _MOST:
             raise InputError(
                 f"a rate series needs up to {_MOST} pull-offs at two or more speeds; got "
-                f"{len(self.tests)} at {len(speeds)}"
+                f"{len(tests)} at {len(speeds)}"
             )
         if not np.all([self.speed > 0, self.force > 0, self.load > 0]):
             raise InputError("speeds, pull-off forces and preloads must be positive")
@@ -239,10 +229,8 @@ class RateSeries:
                 "approach and dwell are taken into account for pull-off forces on thick samples "
                 "without growth only; omit history, or curves, growth and thickness"
             )
-        if self.history and any(one.history is None for one in self.tests):
+        if self.history and any(one.history is None for one in tests):
             raise InputError("a test has no speed of its approach; omit history")
-
-    def _check_numbers(self) -> None:
         rules = {
             "radius": 0 < self.radius < np.inf,
             "stiffness": self.stiffness is None or 0 < self.stiffness < np.inf,
@@ -256,6 +244,9 @@ class RateSeries:
         for name, valid in rules.items():
             if not valid:
                 raise InputError(f"{name} is out of its range: {getattr(self, name)!r}")
+        if self.decades is not None and not self.history:
+            shifts = np.array([one.shift for one in tests])
+            check_relaxed(self.passport.material, self.contact_times / shifts)
 
     @cached_property
     def passport(self) -> Passport:
@@ -287,6 +278,13 @@ class RateSeries:
         """Geometric mean of the times in contact [s]."""
         return float(np.exp(np.log(self.contact_times).mean()))
 
+    def middle_times(self, tests: int) -> Array | None:
+        """Return `middle_time` for tests, whose work grows with the time; None where it does not.
+
+        Such tests have no times of their own.
+        """
+        return None if self.decades is None else np.full(tests, self.middle_time)
+
     @cached_property
     def decades(self) -> Array | None:
         """Decades from `middle_time` to the time in contact of each test, shape (S,).
@@ -294,9 +292,8 @@ class RateSeries:
         None where no two tests at one speed and temperature have different times: such tests do
         not determine a growth with time, because it could be one with speed.
         """
-        times, tests = self.contact_times, self.tests
-        same: dict[tuple[float, float | None], list[float]] = {}
-        for one, time in zip(tests, times.tolist(), strict=True):
+        times, same = self.contact_times, {}
+        for one, time in zip(self.tests, times.tolist(), strict=True):
             same.setdefault((one.speed, one.temperature), []).append(time)
         if np.isnan(times).any() or not any(max(x) >= APART * min(x) for x in same.values()):
             return None

@@ -12,7 +12,7 @@ Three signs show it: residuals above the noise, a modulus that contradicts the k
 a known material, a force by :func:`viscotack.advise` above that of the slowest retraction.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -29,11 +29,12 @@ from viscotack.model.protocol import AtForce, Retraction
 from viscotack.model.traction import LennardJones
 from viscotack.prediction.advice import advise
 from viscotack.theory import maugis, transition
-from viscotack.units import readable
+from viscotack.units import readable, readable_interval
 
 from .contacts import MODELS, RANGES, ElasticModel
 from .likelihood import EVIDENCE, Best, Interval, Objective, Parameter
-from .words import slow_words, upper_bound_words
+from .rate_series import assumed_temperature
+from .words import interval_words
 
 _FEWEST, _MOST = 12, 300  # numbers of points
 _QUIET = 1e-6  # smallest noise over the pull-off force
@@ -262,34 +263,10 @@ class SlowTestFit:
         works = [fit.work_of_adhesion for fit in self.alike]
         return max(works) > (1 + _SAME) * min(works)
 
-    @property
-    def inelastic(self) -> bool:
-        """Whether residuals above the noise show that no elastic law fits."""
-        return self.residual > _LOUD
-
-    @property
-    def modulus_apart(self) -> float:
-        """Distance of the fitted modulus from the given one, in standard deviations."""
-        if self.modulus is None:
-            return 0.0
-        given, uncertainty = self.modulus
-        return float(abs(np.log(self.best.contact_modulus / given)) * given / uncertainty)
-
-    @property
-    def contradicts_modulus(self) -> bool:
-        """Whether the fitted modulus contradicts the given one."""
-        return self.modulus_apart > _APART
-
-    @property
-    def bounded(self) -> bool:
-        """Whether the work is an upper bound, because the test was not slow."""
-        pull = self.same_pull
-        return self.inelastic or self.contradicts_modulus or (pull is not None and pull.fast)
-
-    @property
+    @cached_property
     def upper_bound(self) -> tuple[str, ...]:
         """Reasons why the work is an upper bound; empty for a slow test."""
-        return tuple(upper_bound_words(self))
+        return tuple(_upper_bound(self))
 
     @property
     def work_of_adhesion(self) -> Interval:
@@ -299,18 +276,17 @@ class SlowTestFit:
         """
         ends = [fit.intervals["work_of_adhesion"] for fit in self.alike]
         high = max(end.high for end in ends)
-        if self.bounded:
+        if self.upper_bound:
             # of all elastic laws JKR needs the largest work for a force
             of_jkr = -float(self.test.force.min()) / (1.5 * np.pi * self.test.radius)
             return Interval(0.0, max(high, of_jkr), False, True)
-        low = min(end.low for end in ends)
         closed = (all(end.closed_below for end in ends), all(end.closed_above for end in ends))
-        return Interval(low, high, *closed)
+        return Interval(min(end.low for end in ends), high, *closed)
 
     @cached_property
     def words(self) -> tuple[str, ...]:
         """Sentences on the result and on what the data do not determine."""
-        return tuple(slow_words(self))
+        return tuple(_words(self))
 
 
 def identify_slow(
@@ -380,8 +356,14 @@ def identify_slow(
     criteria = [best.misfit + len(objective.parameters) * each for objective, best in fitted]
     fits = []
     for model, (objective, best), criterion in zip(chosen, fitted, criteria, strict=True):
-        likely = criterion < min(criteria) + _HOPELESS
-        intervals = _intervals(model, objective, best, level) if likely else {}
+        intervals = {}
+        if criterion < min(criteria) + _HOPELESS:
+            names = ("work_of_adhesion", "contact_modulus")
+            intervals = {name: objective.interval(name, best, level) for name in names}
+            if (name := model.range_parameter) is not None:
+                ends = objective.interval(name, best, level)
+                low, high = _tabor(name, ends.low), _tabor(name, ends.high)
+                intervals["tabor"] = replace(ends, low=low, high=high, split=False)
         rest = objective.residuals(best.values)
         scatter = float(np.sqrt(np.mean(rest**2))) * size * test.force_noise
         fits.append(ModelFit(model.name, best.values, intervals, scatter, criterion))
@@ -416,7 +398,7 @@ def _same_pull(fit: SlowTestFit, solid: Material | None) -> SamePull | None:
     if solid is None or test.speed is None or test.preload is None:
         return None
     work, tabor = max(one.work_of_adhesion for one in alike), None
-    if not fit.bounded and fit.ranged is not None and fit.ranged in alike:
+    if not fit.upper_bound and fit.ranged is not None and fit.ranged in alike:
         ends = fit.ranged.intervals["tabor"]
         if ends.told or (ends.closed_below and ends.low > _SHORT):
             tabor = ends.low
@@ -438,7 +420,13 @@ def with_own_scatter(
     test: SlowTest, models: Sequence[ElasticModel], modulus: tuple[float, float] | None
 ) -> tuple[float, list[tuple[Objective, Best]]]:
     """Return the scatter of the best model over the noise, and all models fitted with it."""
-    bests = [_found(_objective(model, test, test.sigma, modulus)) for model in models]
+    bests = []
+    for model in models:
+        objective = _objective(model, test, test.sigma, modulus)
+        # the range has several local minima
+        ranges = [one for one in objective.parameters if one.name in RANGES]
+        found = [objective.best(), *(objective.best_along(one, _STARTS) for one in ranges)]
+        bests.append(min(found, key=lambda best: best.misfit))
     least = min(best.misfit for best in bests)
     size = float(max(np.sqrt(least / max(test.force.size - 3, 1)), 1e-6))
     objectives = [_objective(model, test, size * test.sigma, modulus) for model in models]
@@ -493,26 +481,99 @@ def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
     return w, float(0.75 * np.ptp(test.force) / np.sqrt(R) / max(span, 1e-12) ** 1.5)
 
 
-def _found(objective: Objective) -> Best:
-    """Return the best fit from several starts: the range has several local minima."""
-    ranges = [one for one in objective.parameters if one.name in RANGES]
-    found = [objective.best(), *(objective.best_along(one, _STARTS) for one in ranges)]
-    return min(found, key=lambda best: best.misfit)
-
-
-def _intervals(
-    model: ElasticModel, objective: Objective, best: Best, level: float
-) -> dict[str, Interval]:
-    names = ("work_of_adhesion", "contact_modulus")
-    found = {name: objective.interval(name, best, level) for name in names}
-    if (name := model.range_parameter) is not None:
-        ends = objective.interval(name, best, level)
-        low, high = _tabor(name, ends.low), _tabor(name, ends.high)
-        found["tabor"] = replace(ends, low=low, high=high, split=False)
-    return found
-
-
 def _tabor(name: str, value: float) -> float:
     """Return the Tabor number of a Lennard-Jones contact of the same work and strength."""
     lam = value if name == "maugis_parameter" else float(transition.maugis_parameter(value))
     return lam / float(maugis.parameter_from_tabor(1.0))
+
+
+def _upper_bound(fit: SlowTestFit) -> Iterator[str]:
+    """Yield the reasons why the work of a fit is an upper bound; none for a slow test."""
+    if fit.residual > _LOUD:
+        yield (
+            f"residuals are {fit.residual:.2g} times the noise: no elastic law fits. If the test "
+            "was not slow, energy dissipated at a viscoelastic edge appears as a longer range; use "
+            "a slower test, or `viscotack identify rates`"
+        )
+    if fit.modulus is not None:
+        (given, uncertainty), found = fit.modulus, fit.best.contact_modulus
+        apart = abs(np.log(found / given)) * given / uncertainty
+        if apart > _APART:
+            yield (
+                f"the fitted E0* {readable(found, 'Pa')} is {apart:.2g} standard deviations from "
+                f"the given {readable(given, 'Pa')} +- {readable(uncertainty, 'Pa')}: the contact "
+                "was not that of the relaxed solid, or the given modulus or the compliance of the "
+                "rig is wrong"
+            )
+    if fit.same_pull is not None and fit.same_pull.fast:
+        yield (
+            f"{_of_pull(fit, fit.same_pull)}: the test was not slow. Use a slower test, or "
+            "`viscotack identify rates`"
+        )
+
+
+def _words(fit: SlowTestFit) -> Iterator[str]:
+    """Yield sentences on the result and on what the data do not determine."""
+    alike, reasons, level = fit.alike, fit.upper_bound, fit.level
+    names = [one.model.upper() for one in alike]
+    if reasons:
+        most = readable(fit.work_of_adhesion.high, "J/m2")
+        yield (
+            f"the work of adhesion is at most {most} ({level:.0%}), an upper bound: an elastic fit "
+            "does not determine it from this test"
+        )
+        yield from reasons
+    elif fit.undetermined:
+        works = [_work(one, one.intervals["work_of_adhesion"], level) for one in alike]
+        by_each = " or ".join(f"{x} by {name}" for x, name in zip(works, names, strict=True))
+        yield (
+            f"the work of adhesion is undetermined between models: {by_each} (criteria "
+            f"{alike[1].criterion - alike[0].criterion:.1f} apart, {EVIDENCE:g} would be "
+            "evidence); contact radii from a camera, or E0* with its uncertainty, distinguish them"
+        )
+    else:
+        work = _work(alike[0], fit.work_of_adhesion, level)
+        yield f"work of adhesion {work} by {' and '.join(names)}"
+    if len(names) > 1 and (reasons or not fit.undetermined):
+        others = " and ".join(names[1:])
+        yield f"the data do not distinguish {names[0]} from {others} (criteria within {EVIDENCE:g})"
+    if fit.ranged is not None and not reasons:
+        ends, name = fit.ranged.intervals["tabor"], fit.ranged.model.upper()
+        said = interval_words("Tabor number", "", fit.ranged.tabor or np.nan, ends, level)
+        if ends.told:
+            yield f"{said} by {name}"
+        elif ends.closed_below and "DMT" not in names:
+            yield f"{said} ({name}), hence no range of attraction: JKR is sufficient"
+        elif ends.closed_above and "JKR" not in names:
+            yield f"{said} ({name}): DMT is sufficient"
+        else:
+            yield f"these data do not determine the range of attraction ({name})"
+    if fit.test.against == "depth":
+        yield "the zero of depth was also fitted; without a camera the range is poorly determined"
+    if fit.same_pull is None and fit.material is not None:
+        yield "without speed and preload the material cannot show whether the test was slow"
+    if fit.same_pull is not None and not fit.same_pull.fast:
+        yield _of_pull(fit, fit.same_pull)
+    if isinstance(fit.material, Passport):
+        known = () if fit.test.temperature is None else (fit.test.temperature,)
+        yield from assumed_temperature(fit.material, known)
+
+
+def _of_pull(fit: SlowTestFit, pull: SamePull) -> str:
+    """Return whether the test was slow on its material."""
+    at = (
+        f"at {readable(fit.test.speed or 0.0, 'm/s')}, {readable(pull.work, 'J/m2')} and a range "
+        f"of {readable(pull.gap, 'm', digits=2)}"
+    )
+    if pull.assumed is not None:
+        at += f" (an assumed Tabor number of {pull.assumed:g}: the data do not determine it)"
+    if pull.ratio is None:
+        why = pull.error or "simulate this pull"
+        return f"whether the test was slow is not known {at}: {why}"
+    said = f"the material gives {pull.ratio:.4g} times the slow force {at}"
+    return said if pull.fast else f"{said}: the test was slow"
+
+
+def _work(fit: ModelFit, ends: Interval, level: float) -> str:
+    both = readable_interval(ends.low, ends.high, "J/m2")
+    return f"{readable(fit.work_of_adhesion, 'J/m2')} ({both}, {level:.0%})"

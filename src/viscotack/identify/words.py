@@ -1,4 +1,4 @@
-"""Sentences on fits, forecasts and slow tests, made from their numbers at the end."""
+"""Sentences on fits and forecasts of rate series, made from their numbers at the end."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.model.geometry import Layer
-from viscotack.model.materials.passport import Passport, allowed
+from viscotack.model.materials.passport import allowed
 from viscotack.theory.crack.contact.recession import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from .forecasting import RateForecast
     from .rate_fit import RateSeriesFit
     from .search import SeriesFit
-    from .slow_tests import ModelFit, SamePull, SlowTestFit
 
 _speed = partial(readable, unit="m/s", digits=3)
 _size = partial(readable, unit="m", digits=3)
@@ -147,12 +146,12 @@ def _of_unknowns(fit: SeriesFit) -> Iterator[str]:
     """Yield a sentence on each unknown."""
     for name, ends in fit.intervals.items():
         label, unit = _LABELS[name]
-        yield _of_one(label, unit, fit.best.values[name], ends, fit.level)
+        yield interval_words(label, unit, fit.best.values[name], ends, fit.level)
         if ends.split:
             yield f"the interval of the {label} consists of separate ranges that fit these forces"
 
 
-def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> str:
+def interval_words(label: str, unit: str, value: float, ends: Interval, level: float) -> str:
     """Return a sentence on a value with its interval, which the data may leave open."""
     if ends.told:
         both = readable_interval(ends.low, ends.high, unit)
@@ -318,96 +317,3 @@ def _test(fit: SeriesFit, number: int) -> str:
 
 def _span(times: Array) -> str:
     return _time(times.min(), to=times.max())
-
-
-def upper_bound_words(fit: SlowTestFit) -> Iterator[str]:
-    """Yield the reasons why the work of a fit is an upper bound; none for a slow test."""
-    if fit.inelastic:
-        yield (
-            f"residuals are {fit.residual:.2g} times the noise: no elastic law fits. If the test "
-            "was not slow, energy dissipated at a viscoelastic edge appears as a longer range; use "
-            "a slower test, or `viscotack identify rates`"
-        )
-    if fit.modulus is not None and fit.contradicts_modulus:
-        given = " +- ".join(readable(x, "Pa") for x in fit.modulus)
-        yield (
-            f"the fitted E0* {readable(fit.best.contact_modulus, 'Pa')} is {fit.modulus_apart:.2g} "
-            f"standard deviations from the given {given}: the contact was not that of the relaxed "
-            "solid, or the given modulus or the compliance of the rig is wrong"
-        )
-    if fit.same_pull is not None and fit.same_pull.fast:
-        yield (
-            f"{_of_pull(fit, fit.same_pull)}: the test was not slow. Use a slower test, or "
-            "`viscotack identify rates`"
-        )
-
-
-def slow_words(fit: SlowTestFit) -> Iterator[str]:
-    """Yield sentences on the result and on what the data do not determine."""
-    alike, reasons, level = fit.alike, fit.upper_bound, fit.level
-    names = [one.model.upper() for one in alike]
-    if reasons:
-        most = readable(fit.work_of_adhesion.high, "J/m2")
-        yield (
-            f"the work of adhesion is at most {most} ({level:.0%}), an upper bound: an elastic fit "
-            "does not determine it from this test"
-        )
-        yield from reasons
-    elif fit.undetermined:
-        works = [_work(one, one.intervals["work_of_adhesion"], level) for one in alike]
-        by_each = " or ".join(f"{x} by {name}" for x, name in zip(works, names, strict=True))
-        yield (
-            f"the work of adhesion is undetermined between models: {by_each} (criteria "
-            f"{alike[1].criterion - alike[0].criterion:.1f} apart, {EVIDENCE:g} would be "
-            "evidence); contact radii from a camera, or E0* with its uncertainty, distinguish them"
-        )
-    else:
-        work = _work(alike[0], fit.work_of_adhesion, level)
-        yield f"work of adhesion {work} by {' and '.join(names)}"
-    if len(names) > 1 and (reasons or not fit.undetermined):
-        others = " and ".join(names[1:])
-        yield f"the data do not distinguish {names[0]} from {others} (criteria within {EVIDENCE:g})"
-    if fit.ranged is not None and not reasons:
-        yield _of_range(fit.ranged, names, level)
-    if fit.test.against == "depth":
-        yield "the zero of depth was also fitted; without a camera the range is poorly determined"
-    if fit.same_pull is None and fit.material is not None:
-        yield "without speed and preload the material cannot show whether the test was slow"
-    if fit.same_pull is not None and not fit.same_pull.fast:
-        yield _of_pull(fit, fit.same_pull)
-    if isinstance(fit.material, Passport):
-        known = () if fit.test.temperature is None else (fit.test.temperature,)
-        yield from assumed_temperature(fit.material, known)
-
-
-def _of_pull(fit: SlowTestFit, pull: SamePull) -> str:
-    """Return whether the test was slow on its material."""
-    at = (
-        f"at {readable(fit.test.speed or 0.0, 'm/s')}, {readable(pull.work, 'J/m2')} and a range "
-        f"of {readable(pull.gap, 'm', digits=2)}"
-    )
-    if pull.assumed is not None:
-        at += f" (an assumed Tabor number of {pull.assumed:g}: the data do not determine it)"
-    if pull.ratio is None:
-        why = pull.error or "simulate this pull"
-        return f"whether the test was slow is not known {at}: {why}"
-    said = f"the material gives {pull.ratio:.4g} times the slow force {at}"
-    return said if pull.fast else f"{said}: the test was slow"
-
-
-def _work(fit: ModelFit, ends: Interval, level: float) -> str:
-    both = readable_interval(ends.low, ends.high, "J/m2")
-    return f"{readable(fit.work_of_adhesion, 'J/m2')} ({both}, {level:.0%})"
-
-
-def _of_range(fit: ModelFit, alike: list[str], level: float) -> str:
-    """Describe the range; `alike` are the models that the data do not distinguish."""
-    ends, name = fit.intervals["tabor"], fit.model.upper()
-    said = _of_one("Tabor number", "", fit.tabor or np.nan, ends, level)
-    if ends.told:
-        return f"{said} by {name}"
-    if ends.closed_below and "DMT" not in alike:
-        return f"{said} ({name}), hence no range of attraction: JKR is sufficient"
-    if ends.closed_above and "JKR" not in alike:
-        return f"{said} ({name}): DMT is sufficient"
-    return f"these data do not determine the range of attraction ({name})"

@@ -217,7 +217,6 @@ class NextTest(Request):
         """Fit the series of the study and rank the tests."""
         from viscotack.clock import limited
         from viscotack.identify import Trial, next_tests
-        from viscotack.identify.ranked_tests import INTERFACE
         from viscotack.plot.interface import draw_next_tests
 
         speeds, wanted_speeds = (
@@ -233,12 +232,8 @@ class NextTest(Request):
             raise InputError("the wanted forecast needs its speed, `forecast_speed`")
         with limited(self.time_limit):
             study = fitted(self.study, caller)
-            found = next_tests(
-                study.fit,
-                candidates,
-                wanted=wanted or INTERFACE,
-                **self.values("noise", "repeats", "count"),
-            )
+            how = self.values("noise", "repeats", "count")
+            found = next_tests(study.fit, candidates, wanted=wanted, **how)
         rows = [_row(each) for each in found.ranked]
         record = {
             "now": found.now,
