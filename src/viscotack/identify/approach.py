@@ -15,10 +15,11 @@ closes the contact and the solid takes a part of it, and that of the pull-off. T
 force is a straight line: a curved one is read as attraction.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.stats import chi2
@@ -32,6 +33,8 @@ from viscotack.theory import lennard_jones
 from viscotack.units import readable
 
 from .likelihood import Interval
+
+_Fit = TypeVar("_Fit")
 
 _INNER, _OUTER = 36, 24  # nodes in the attracted area, and outside it
 _REACH = 15.0  # radius of the mesh over that of the attracted area
@@ -419,16 +422,16 @@ def identify_approach(
     )
 
 
-def identify_approaches(
-    cycles: Sequence[Cycle], **case: Any
-) -> tuple[tuple[ApproachFit, ...], tuple[str, ...]]:
-    """Return the fit of every cycle that has one (:func:`identify_approach`), and other reasons."""
+def of_every(
+    cycles: Sequence[Cycle], fitted: Callable[[Cycle], _Fit]
+) -> tuple[tuple[_Fit, ...], tuple[str, ...]]:
+    """Return the fits of the cycles that can be fitted, and the reasons for the others."""
     fits, refused = [], []
     for cycle in cycles:
         try:
-            fits.append(identify_approach(cycle, **case))
-        except (InputError, OutOfRange) as error:
-            refused.append(f"cycle {cycle.number}: {error}")
+            fits.append(fitted(cycle))
+        except InputError as error:
+            refused.append(f"{Path(cycle.source.path).name}: cycle {cycle.number}: {error}")
     return tuple(fits), tuple(refused)
 
 
@@ -437,5 +440,6 @@ def range_bound(
 ) -> float | None:
     """Return the upper bound of h0 by a few of the approaches [m], their median; None without."""
     some = cycles[:: max(len(cycles) // _APPROACHES, 1)][:_APPROACHES]
-    fits, _ = identify_approaches(some, radius=radius, contact_modulus=contact_modulus, level=level)
+    case = {"radius": radius, "contact_modulus": contact_modulus, "level": level}
+    fits, _ = of_every(some, lambda cycle: identify_approach(cycle, **case))
     return float(np.median([fit.bound for fit in fits])) if fits else None

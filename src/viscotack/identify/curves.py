@@ -12,7 +12,6 @@ is an upper bound of the work of adhesion (:func:`viscotack.identify.identify_sl
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy.stats import t
@@ -22,6 +21,7 @@ from viscotack.lab.tack import Cycle
 from viscotack.lab.tack.record import Measured
 from viscotack.lab.tack.repeats import same_speeds, temperature_of
 
+from .approach import of_every
 from .contacts import MODELS
 from .slow_tests import SlowTest, slow_test, with_own_scatter
 
@@ -114,34 +114,19 @@ def fit_curves(
     """
     if model not in ("jkr", "dmt"):
         raise InputError(f"model must be jkr or dmt, got {model!r}", field="model")
-    fits, refused = [], []
-    for cycle in cycles:
-        try:
-            fits.append(_fitted(cycle, radius, model, contact_modulus))
-        except InputError as error:
-            refused.append(f"{Path(cycle.source.path).name}: cycle {cycle.number}: {error}")
-    return tuple(fits), tuple(refused)
 
+    def fitted(cycle: Cycle) -> CurveFit:
+        test = slow_test(cycle, radius)
+        size, ((objective, best),) = with_own_scatter(test, [MODELS[model]], contact_modulus)
+        errors = np.sqrt(np.diag(objective.covariance(best)))
+        work, modulus = (
+            Measured(best.values[one.name], float(error) * best.values[one.name])
+            for one, error in zip(objective.parameters[:2], errors, strict=False)
+        )
+        scatter = float(size * np.mean(test.sigma))
+        return CurveFit(cycle, model, test, best.values, work, modulus, scatter)
 
-def _fitted(
-    cycle: Cycle, radius: float, model: str, modulus: tuple[float, float] | None
-) -> CurveFit:
-    test = slow_test(cycle, radius)
-    size, ((objective, best),) = with_own_scatter(test, [MODELS[model]], modulus)
-    errors = np.sqrt(np.diag(objective.covariance(best)))
-    found = {
-        one.name: Measured(best.values[one.name], float(error) * best.values[one.name])
-        for one, error in zip(objective.parameters, errors, strict=True)
-    }
-    return CurveFit(
-        cycle,
-        model,
-        test,
-        best.values,
-        found["work_of_adhesion"],
-        found["contact_modulus"],
-        float(size * np.mean(test.sigma)),
-    )
+    return of_every(cycles, fitted)
 
 
 def group_curves(fits: Sequence[CurveFit], level: float = 0.9) -> tuple[CurveGroup, ...]:
@@ -160,16 +145,11 @@ def group_curves(fits: Sequence[CurveFit], level: float = 0.9) -> tuple[CurveGro
     for same in same_speeds([fit.cycle for fit in fits]):
         # in the order of the files, which shows a drift
         curves = tuple(fit for fit in fits if any(fit.cycle is cycle for cycle in same))
-        groups.append(
-            CurveGroup(
-                curves,
-                temperature_of(same),
-                float(np.mean([one.speed.value for one in same])),
-                _mean([fit.work_of_adhesion.value for fit in curves], level),
-                _mean([fit.contact_modulus.value for fit in curves], level),
-                _mean([one.pull_off_force.value for one in same], level),
-            )
-        )
+        work = _mean([fit.work_of_adhesion.value for fit in curves], level)
+        modulus = _mean([fit.contact_modulus.value for fit in curves], level)
+        force = _mean([one.pull_off_force.value for one in same], level)
+        speed = float(np.mean([one.speed.value for one in same]))
+        groups.append(CurveGroup(curves, temperature_of(same), speed, work, modulus, force))
     return tuple(groups)
 
 

@@ -342,7 +342,8 @@ class IdentifyApproach(Rig):
 
     def answer(self, caller: Caller) -> Answer:
         """Bound the range by every approach."""
-        from viscotack.identify.approach import identify_approaches
+        from viscotack.identify import identify_approach
+        from viscotack.identify.approach import of_every
         from viscotack.model.materials.passport import Passport
 
         modulus, instantaneous = self.contact_modulus, None
@@ -353,21 +354,18 @@ class IdentifyApproach(Rig):
             modulus = solid.contact_modulus
             instantaneous = modulus / solid.modulus_ratio
         survey = self.survey(caller)
-        fits, refused = identify_approaches(
-            survey.cycles,
-            contact_modulus=modulus,
-            instantaneous=instantaneous,
-            **self.values("radius", "work_of_adhesion", "level"),
-        )
+        case = self.values("radius", "work_of_adhesion", "level")
+        case |= {"contact_modulus": modulus, "instantaneous": instantaneous}
+        fits, refused = of_every(survey.cycles, lambda cycle: identify_approach(cycle, **case))
         if not fits:
-            raise InputError("; ".join(dict.fromkeys(refused)), field="files")
+            raise InputError("; ".join(refused), field="files")
         names = ("bound_m", "level", "attraction_N", "noise_N", "jump_in_force_N", "step_m")
         paths = {"equilibrium_gap_m": "likely", "works_of_adhesion_J_m2": "works"}
         rows = [read(fit, *names, "words", **paths, samples_during_jump="during") for fit in fits]
         for row, fit in zip(rows, fits, strict=True):
             found = fit.equilibrium_gap
             row["interval_m"] = None if found is None else [found.low, found.high]
-        notes = (*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused)))
+        notes = (*refusals(survey), *(f"refused: {why}" for why in refused))
         return Answer(fits, data={"approaches": rows}, notes=notes)
 
 
