@@ -10,10 +10,9 @@ import viscotack as vt
 from rate_tests import LENS, holds, measured, of_other, of_single_cracks
 from viscotack.app.operations.parts.report import page
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, search
-from viscotack.identify import growth as growing
+from viscotack.identify import forward as growing
 from viscotack.identify.computed import Computed
-from viscotack.identify.forward import Forward, Growth
-from viscotack.identify.growth import FoundGrowth, Opening
+from viscotack.identify.forward import Forward, FoundGrowth, Growth, Opening
 from viscotack.lab.tack import survey
 from viscotack.model.materials.shift import WLF
 

@@ -4,9 +4,9 @@ A fit goes from data over a model and a likelihood to a result; sentences are ma
 
 ============  ======================================================================
 data          ``pull_off``, ``rate_series``
-model         ``forward``, ``growth``, ``force_ratios``
+model         ``forward``, ``force_ratios``
 likelihood    ``likelihood``, ``covariances``, ``search``
-result        ``rate_fit``, ``edge_fit``, ``forecasting``, ``ranked_tests``
+result        ``rate_fit``, ``forecasting``, ``ranked_tests``
 sentences     ``words``
 ============  ======================================================================
 
@@ -18,12 +18,11 @@ for the next time.
 from .approach import attraction, identify_approach
 from .contact_time import identify_dwell
 from .curves import CurveGroup, fit_curves, group_curves
-from .edge_fit import EdgeFit, identify_edge
 from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
 from .likelihood import Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff, Trial, pull_offs
 from .ranked_tests import NextTests, next_tests
-from .rate_fit import RateSeriesFit, identify_rates
+from .rate_fit import EdgeFit, RateSeriesFit, identify_edge, identify_rates
 from .rate_series import RateSeries
 from .slow_tests import SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 

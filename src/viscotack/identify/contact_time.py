@@ -136,26 +136,25 @@ class DwellFit:
             f"(JKR); it grows by {self.growth_per_decade:.1%} in a decade of time ({low:.1%} to "
             f"{high:.1%}, {self.level:.0%})"
         )
-        return said, self._of_law()
-
-    def _of_law(self) -> str:
-        if self.chance > _CHANCE:
-            return "no growth with contact time is found beyond the scatter of the tests"
-        if self.both:
-            return "logarithmic and saturating growth fit alike; more dwells would tell them apart"
-        if self.kind is None:
-            return "the force falls with the dwell, which no law describes; was the solid relaxed?"
         low, high = self.reference_time
         until = "any time" if high == inf else readable(high, "s", digits=2)
-        if low == 0.0:
-            first = readable(self.times[0], "s", digits=2)
-            return (
+        if self.chance > _CHANCE:
+            law = "no growth with contact time is found beyond the scatter of the tests"
+        elif self.both:
+            law = "logarithmic and saturating growth fit alike; more dwells would tell them apart"
+        elif self.kind is None:
+            law = "the force falls with the dwell, which no law describes; was the solid relaxed?"
+        elif low == 0.0:
+            law = (
                 f"{self.law}: the reference time is below {until} and not determined, nor are work "
-                f"and sensitivity of a new contact; the constants describe times above {first}"
+                "and sensitivity of a new contact; the constants describe times above "
+                f"{readable(self.times[0], 's', digits=2)}"
             )
-        time = readable(self.parameters["reference_time"], "s")
-        between = f"{readable(low, 's', digits=2)} to {until}"
-        return f"{self.law} with a reference time of {time} ({between})"
+        else:
+            time = readable(self.parameters["reference_time"], "s")
+            between = f"{readable(low, 's', digits=2)} to {until}"
+            law = f"{self.law} with a reference time of {time} ({between})"
+        return said, law
 
 
 @dataclass(frozen=True)
@@ -246,7 +245,22 @@ def identify_dwell(
     >>> f"{fit.law}: {fit.growth_per_decade:.1%} in a decade"
     'logarithmic-ageing: 13.1% in a decade'
     """
-    t, F = _checked(times, forces, radius, level)
+    t, F = np.array(times, dtype=float), np.array(forces, dtype=float)
+    if t.shape != F.shape or t.ndim != 1:
+        raise InputError(f"times and forces must be lists of one length, got {t.shape}, {F.shape}")
+    if not (np.all(np.isfinite(t) & np.isfinite(F)) and np.all(t > 0) and np.all(F > 0)):
+        raise InputError("times and pull-off forces must be positive and finite")
+    if not 0 < radius < inf or not 0 < level < 1:
+        raise InputError(f"radius must be positive and level in (0, 1), got {radius} and {level}")
+    order = np.argsort(t, kind="stable")
+    t, F = t[order], F[order]
+    dwells = 1 + int(np.count_nonzero(np.diff(np.log(t)) > np.log(1.1)))
+    if t.size < _FEWEST or dwells < _DWELLS or t[-1] < _RANGE * t[0]:
+        ends = readable(float(t[0]), "s", digits=2, to=float(t[-1]))
+        raise InputError(
+            f"{t.size} tests after {dwells} dwells, {ends}: a growth with contact time needs "
+            f"{_FEWEST} tests after {_DWELLS} dwells over a factor of {_RANGE:g}"
+        )
     middle = float(np.exp(np.log(t).mean()))
     # the line in ln t is what all data determine
     line, miss = _fitted(np.log(t / middle), F)
@@ -256,7 +270,6 @@ def identify_dwell(
     error = noise / float(np.sqrt(np.sum(np.log(t / middle) ** 2)))
     wide = float(scipy.stats.t.ppf((1 + level) / 2, left)) * error
     decade = float(np.log(10))
-    interval = decade * (slope - wide), decade * (slope + wide)
     chance = 2 * float(scipy.stats.t.sf(abs(slope) / error, left))
     grows = chance <= _CHANCE and slope > 0
     laws = _laws(t, F, max(uncertainty, _LEAST), radius, level) if grows else []
@@ -267,7 +280,7 @@ def identify_dwell(
         radius=radius,
         work_of_adhesion=float(line[0]) / (1.5 * np.pi * radius),
         growth_per_decade=decade * slope,
-        interval=interval,
+        interval=(decade * (slope - wide), decade * (slope + wide)),
         chance=chance,
         scatter=noise,
         level=level,
@@ -328,29 +341,6 @@ def of_one_time(cycles: Sequence[Cycle]) -> Array:
     return np.exp(forces - slope * (times - times.mean()))
 
 
-def _checked(
-    times: Sequence[float] | Array, forces: Sequence[float] | Array, radius: float, level: float
-) -> tuple[Array, Array]:
-    """Return times and forces by time."""
-    t, F = np.array(times, dtype=float), np.array(forces, dtype=float)
-    if t.shape != F.shape or t.ndim != 1:
-        raise InputError(f"times and forces must be lists of one length, got {t.shape}, {F.shape}")
-    if not (np.all(np.isfinite(t) & np.isfinite(F)) and np.all(t > 0) and np.all(F > 0)):
-        raise InputError("times and pull-off forces must be positive and finite")
-    if not 0 < radius < inf or not 0 < level < 1:
-        raise InputError(f"radius must be positive and level in (0, 1), got {radius} and {level}")
-    order = np.argsort(t, kind="stable")
-    t, F = t[order], F[order]
-    dwells = 1 + int(np.count_nonzero(np.diff(np.log(t)) > np.log(1.1)))
-    if t.size < _FEWEST or dwells < _DWELLS or t[-1] < _RANGE * t[0]:
-        ends = readable(float(t[0]), "s", digits=2, to=float(t[-1]))
-        raise InputError(
-            f"{t.size} tests after {dwells} dwells, {ends}: a growth with contact time needs "
-            f"{_FEWEST} tests after {_DWELLS} dwells over a factor of {_RANGE:g}"
-        )
-    return t, F
-
-
 def _fitted(x: Array, F: Array) -> tuple[Array, float]:
     """Return the coefficients of a + b x with least relative misfit, and the sum of its squares."""
     rows = np.column_stack([np.ones_like(x), x]) / F[:, None]
@@ -367,7 +357,7 @@ def _laws(
     fits = {kind: [_fitted(shape(t / x), F) for x in t0] for kind, (_, shape) in _SHAPES.items()}
     # only laws that grow from a positive work
     misfits = {
-        kind: np.array([miss if a[0] > 0 and a[1] > 0 else inf for a, miss in rows])
+        kind: np.array([miss if min(a) > 0 else inf for a, miss in rows])
         for kind, rows in fits.items()
     }
     least = min(float(each.min()) for each in misfits.values())

@@ -27,12 +27,11 @@ from viscotack.model.geometry import Layer
 
 from .contact_time import PER_DECADE
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
-from .edge_fit import EdgeFit, edge_forces, refuse_far
 from .force_ratios import by_theory, tested
 from .forward import Interface, law_of
 from .likelihood import Posterior
 from .pull_off import Trial
-from .rate_fit import RateSeriesFit
+from .rate_fit import EdgeFit, RateSeriesFit, edge_forces, refuse_far
 from .search import SeriesFit
 from .words import forecast_words, simulation_words
 

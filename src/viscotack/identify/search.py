@@ -22,8 +22,7 @@ from viscotack.theory.crack.contact.growing import LARGEST_ENERGY, lattice_splin
 from .contact_time import PER_DECADE, FoundAgeing
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import ForceRatios
-from .forward import Forward, Interface
-from .growth import EXPONENT, UNKNOWNS, Opening
+from .forward import EXPONENT, UNKNOWNS, Forward, Interface, Opening
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff
 from .rate_series import RateSeries

@@ -19,9 +19,8 @@ from .likelihood import EVIDENCE, Interval
 from .rate_series import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
 
 if TYPE_CHECKING:
-    from .edge_fit import EdgeFit
     from .forecasting import RateForecast
-    from .rate_fit import RateSeriesFit
+    from .rate_fit import EdgeFit, RateSeriesFit
     from .search import SeriesFit
 
 _speed = partial(readable, unit="m/s", digits=3)
