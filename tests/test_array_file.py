@@ -12,7 +12,7 @@ from command_line import exit_status, rows_of
 from picture_units import in_si
 from viscotack.design import read_array
 from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array
-from viscotack.design.holding import held_load
+from viscotack.design.fast import held_load
 from viscotack.plot.design import draw_array
 from viscotack.theory import jkr
 

@@ -15,12 +15,10 @@ from solids import creep_power_law
 from viscotack.app.operations import ask
 from viscotack.design import Bounds, Candidate, Choice, Conditions, read_design
 from viscotack.design.arrays import grid
-from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Force, Pad
+from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Force, Pad, held_load
 from viscotack.design.finding import simulate
-from viscotack.design.holding import held_load
-from viscotack.design.margins import Judge, solid_limits
+from viscotack.design.margins import Judge, allowances, share_of, solid_limits
 from viscotack.design.searching import nondominated
-from viscotack.design.slopes import allowances, share_of
 from viscotack.errors import InputError
 from viscotack.plot.design import draw_design
 from viscotack.theory import lennard_jones

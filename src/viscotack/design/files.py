@@ -28,8 +28,7 @@ from viscotack.model.tables import Read, Reading, read_as, refuse_named, refuse_
 from viscotack.model.traction import ages
 
 from .arrays.load import Hold
-from .arrays.pulling import MOST_PADS, Backing, PadArray, grid
-from .arrays.scatter import Scatter, check_draws
+from .arrays.pulling import MOST_PADS, Backing, PadArray, Scatter, check_draws, grid
 from .space import (
     INTERFACE,
     VARIABLES,
@@ -41,8 +40,7 @@ from .space import (
     Targets,
     ends,
 )
-from .window.opening import aged
-from .window.picking import DONOR, RECEIVER, STAMP, WindowScatter
+from .window.picking import DONOR, RECEIVER, STAMP, WindowScatter, aged
 
 _DESIGN = ("targets", "bounds", "conditions", "scatter", "material", "materials", "interface")
 _MOST_MATERIALS = 10

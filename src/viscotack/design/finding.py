@@ -24,12 +24,15 @@ from viscotack.design.margins import (
     Judge,
     Limit,
     Simulated,
+    allowances,
+    binding,
     pad_of,
+    share_of,
+    slopes_of,
     solid_limits,
     wanted,
 )
 from viscotack.design.searching import NONE, Effort, front_of, search
-from viscotack.design.slopes import allowances, binding, share_of, slopes_of
 from viscotack.design.space import Choice, Conditions, DesignSpace, Targets
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.materials import Material

@@ -10,21 +10,29 @@ result        ``rate_fit``, ``forecasting``, ``ranked_tests``
 sentences     ``words``
 ============  ======================================================================
 
-One slow test goes through ``slow_tests`` and ``contacts``, a folder through ``curves``, an approach
-through ``approach``, tests after several dwells through ``contact_time``. ``computed`` keeps forces
-for the next time.
+Slow tests, one or a folder, go through ``slow_tests`` and ``contacts``, an approach through
+``approach``, tests after several dwells through ``contact_time``. ``computed`` keeps forces for the
+next time.
 """
 
 from .approach import attraction, identify_approach
 from .contact_time import identify_dwell
-from .curves import CurveGroup, fit_curves, group_curves
 from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
 from .likelihood import Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff, Trial, pull_offs
 from .ranked_tests import NextTests, next_tests
 from .rate_fit import EdgeFit, RateSeriesFit, identify_edge, identify_rates
 from .rate_series import RateSeries
-from .slow_tests import SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
+from .slow_tests import (
+    CurveGroup,
+    SlowTest,
+    SlowTestFit,
+    fit_curves,
+    fitted_force,
+    group_curves,
+    identify_slow,
+    slow_test,
+)
 
 __all__ = [
     "CurveGroup",

@@ -5,8 +5,16 @@ tilt and curvature. Each follows the curve of one pad. The derivation is in docs
 """
 
 from .load import Hold, Holding, holding, preload_after
-from .pulling import ArrayPull, Backing, PadArray, grid, pull_array
-from .scatter import ArrayYield, Scatter, array_yield
+from .pulling import (
+    ArrayPull,
+    ArrayYield,
+    Backing,
+    PadArray,
+    Scatter,
+    array_yield,
+    grid,
+    pull_array,
+)
 
 __all__ = [
     "ArrayPull",

@@ -1,10 +1,8 @@
 """Contacts for other programs: force tables, a controller of a release, a contact with memory."""
 
-from .making import force_table
 from .reduced import ContactState, ReducedContact, reduced_contact
-from .release import Release
-from .rig import Released, let_go
-from .table import ForceTable
+from .release import Release, Released, let_go
+from .table import ForceTable, force_table
 from .writing import c_header, fmu, reduced_header
 
 __all__ = [

@@ -7,8 +7,17 @@ derivation is in docs/pick_and_print.md.
 
 from viscotack.simulate.in_series import SeriesOpening
 
-from .opening import aged, which_opens
-from .picking import Cell, Chance, CriticalSpeed, Window, WindowScatter, opening_chance, window
+from .picking import (
+    Cell,
+    Chance,
+    CriticalSpeed,
+    Window,
+    WindowScatter,
+    aged,
+    opening_chance,
+    which_opens,
+    window,
+)
 from .simulated import SeriesResult, simulate_in_series
 
 __all__ = [
