@@ -519,43 +519,32 @@ def _critical_speeds(
 ) -> Iterator[CriticalSpeed]:
     """Yield the critical speeds of a base at a preload."""
     words = (name, STAMP)
-    for change in _changes(speeds, [x.nominal for x in found]):
+    nominal, *corners = (_changes(speeds, row) for row in zip(*map(_opened, found), strict=True))
+    for change in nominal:
         ends = [found[speeds.index(speed)].method for speed in (change.low, change.high)]
         method = SIMULATION if SIMULATION in ends else CRACKS
+        to = _SIMULATED if method == SIMULATION else _RESOLUTION
+        change = _narrowed(opening, 0, change, to)
+        interval: tuple[float | None, float | None] = change.low, change.high
         if method == CRACKS:
-            change = _narrowed(lambda v: opening(v).nominal, change, _RESOLUTION)
-            corners = [_corner(opening, k, change, speeds, found) for k in (0, 1)]
-            known = sorted(x for x in corners if x is not None)
-            if len(known) == 2:
-                interval = known[0], known[1]
-            else:
-                low = next((x for x in known if x <= change.middle), None)
-                high = next((x for x in known if x > change.middle), None)
-                interval = low, high
-        else:
-            change = _narrowed(lambda v: opening(v).nominal, change, _SIMULATED)
-            interval = change.low, change.high
+            known = []
+            for k, changes in enumerate(corners, start=1):
+                alike = [x for x in changes if (x.below, x.above) == (change.below, change.above)]
+                # none is inside the speeds of the map
+                if alike:
+                    nearest = min(alike, key=lambda x: abs(log(x.middle / change.middle)))
+                    known.append(_narrowed(opening, k, nearest, _OF_INTERVAL).middle)
+            low, high = min(known, default=None), max(known, default=None)
+            if len(known) == 1:
+                low, high = (low, None) if known[0] <= change.middle else (None, high)
+            interval = low, high
         below, above = words[change.below], words[change.above]
         yield CriticalSpeed(name, preload, change.middle, interval, below, above, method)
 
 
-def _corner(
-    opening: Callable[[float], SeriesOpening],
-    number: int,
-    change: _Change,
-    speeds: tuple[float, ...],
-    found: list[SeriesOpening],
-) -> float | None:
-    """Return the critical speed in a corner of the bands; None outside the speeds of the map."""
-    alike = [
-        each
-        for each in _changes(speeds, [x.corners[number] for x in found])
-        if (each.below, each.above) == (change.below, change.above)
-    ]
-    if not alike:
-        return None
-    nearest = min(alike, key=lambda x: abs(log(x.middle / change.middle)))
-    return _narrowed(lambda v: opening(v).corners[number], nearest, _OF_INTERVAL).middle
+def _opened(found: SeriesOpening) -> tuple[int | None, ...]:
+    """Return the contact that opens by the strengths, and in both corners of their bands."""
+    return found.nominal, *found.corners
 
 
 def _changes(speeds: Sequence[float], opened: Sequence[int | None]) -> list[_Change]:
@@ -564,10 +553,12 @@ def _changes(speeds: Sequence[float], opened: Sequence[int | None]) -> list[_Cha
     return [_Change(v, w, a, b) for (v, a), (w, b) in pairwise(known) if a != b]
 
 
-def _narrowed(opened: Callable[[float], int | None], change: _Change, to: float) -> _Change:
+def _narrowed(
+    opening: Callable[[float], SeriesOpening], which: int, change: _Change, to: float
+) -> _Change:
     """Return a change between closer speeds, by bisection up to this ln of their ratio."""
     while log(change.high / change.low) > to:
-        found = opened(change.middle)
+        found = _opened(opening(change.middle))[which]
         if found is None:
             break
         if found == change.below:
