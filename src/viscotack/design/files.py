@@ -213,35 +213,36 @@ def read_design(
     """
     tables, reading = _opened(path, _DESIGN, also, beside, not_computed=("shear", "peel", "tilt"))
     materials = _materials(reading.where, tables)
-    problems = {
-        name: case_of_tables(
-            {"material": table, "interface": tables.get("interface"), **_POSED},
-            where=f"{path}, material {name!r}",
-            also=also,
-            beside=reading.beside,
-        )
-        for name, table in materials.items()
-    }
-    passports = {
-        name: passport_of({"material": each}, reading)[0] for name, each in materials.items()
-    }
+    problems, passports = {}, {}
+    for name, table in materials.items():
+        case = {"material": table, "interface": tables.get("interface"), **_POSED}
+        where = f"{path}, material {name!r}"
+        problems[name] = case_of_tables(case, where=where, also=also, beside=reading.beside)
+        passports[name] = passport_of({"material": table}, reading)[0]
     given = read_as(_ConditionsTable, tables.get("conditions", {}), reading, "conditions")
     speeds = {"hold_speed": given.hold_speed, "release_speed": given.release_speed}
     windows = {name: each for name, each in speeds.items() if each is not None}
     shifts: dict[str, tuple[float, float]] = {}
-    if (ends := given.temperature) is not None:
-        for name in materials:
+    if (kelvins := given.temperature) is not None:
+        for name, passport in passports.items():
             with _at(f"{path}, material {name!r}:"):
-                shifts[name] = _shifts(passports[name], ends)
+                shifts[name] = _shifts(passport, kelvins)
     deviations = _scatter(tables, reading)
     share = deviations.pop("yield", 0.0)
     window = {f"{name.removesuffix('_speed')}_window": x.top / x.low for name, x in windows.items()}
     with _at(f"{path}, [scatter]"):
         conditions = Conditions(**window, shifts=shifts, deviations=deviations, share=share)
+    space = read_as(DesignSpace, tables.get("bounds"), reading, "bounds")
+    with _at(f"{reading.where}, [bounds]"):
+        if twice := [name for name in windows if getattr(space, name) is not None]:
+            raise InputError(f"{twice[0]}: all speeds in [conditions] count; remove it")
+    slowest: dict[str, Any] = {
+        name: Bounds(x.low if name == "hold_speed" else x.top) for name, x in windows.items()
+    }
     return DesignFile(
         {name: each.material for name, each in problems.items()},
         next(iter(problems.values())).traction,
-        _space(tables, windows, reading),
+        replace(space, **slowest),
         read_as(Targets, tables.get("targets"), reading, "targets"),
         conditions,
         {name: each for name, each in passports.items() if each is not None},
@@ -295,18 +296,6 @@ def _materials(path: str, tables: Mapping[str, Any]) -> dict[str, Any]:
             )
         found[name] = {key: value for key, value in each.items() if key != "name"}
     return found
-
-
-def _space(
-    tables: Mapping[str, Any], windows: Mapping[str, Bounds], reading: Reading
-) -> DesignSpace:
-    found = read_as(DesignSpace, tables.get("bounds"), reading, "bounds")
-    with _at(f"{reading.where}, [bounds]"):
-        if twice := [name for name in windows if getattr(found, name) is not None]:
-            raise InputError(f"{twice[0]}: all speeds in [conditions] count; remove it")
-    slowest = {name: x.low if name == "hold_speed" else x.top for name, x in windows.items()}
-    speeds: dict[str, Any] = {name: Bounds(speed) for name, speed in slowest.items()}
-    return replace(found, **speeds)
 
 
 @dataclass(frozen=True)
@@ -380,8 +369,13 @@ def read_window(
     names = [name for name in (STAMP, DONOR, RECEIVER) if name in tables]
     if STAMP not in names or len(names) == 1:
         raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
-    if pull.temperatures != (None,):
-        _check_shifted(reading.where, tables, names)
+    stated = {name: _material(tables[name]) for name in names}
+    for name, table in stated.items() if pull.temperatures != (None,) else ():
+        if "passport" not in table and table.get("model") != Elastic.word:
+            raise InputError(
+                f"{path}: temperatures need the shift of the times of [{name}.material]; state it "
+                'by a passport, passport = "pdms.toml"'
+            )
     maps = []
     for temperature, dwell in product(pull.temperatures, pull.dwells):
         contacts = {
@@ -393,9 +387,9 @@ def read_window(
                 # speed and preload of the map replace these
                 preload=pull.preloads[0],
                 speed=pull.speeds[0],
-                temperature=temperature if _has_passport(tables[name]) else None,
+                temperature=temperature if "passport" in table else None,
             )
-            for name in names
+            for name, table in stated.items()
         }
         if dwell is not None:
             if not any(ages(each.traction) for each in contacts.values()):
@@ -410,21 +404,10 @@ def read_window(
     return tuple(maps)
 
 
-def _has_passport(tables: Any) -> bool:
-    material = tables.get("material") if isinstance(tables, Mapping) else None
-    return isinstance(material, Mapping) and "passport" in material
-
-
-def _check_shifted(path: str, tables: Mapping[str, Any], names: list[str]) -> None:
-    """Raise an InputError unless temperatures change all viscoelastic contacts."""
-    for name in names:
-        material = tables[name].get("material", {}) if isinstance(tables[name], Mapping) else {}
-        is_plain = isinstance(material, Mapping) and material.get("model") == Elastic.word
-        if not is_plain and not _has_passport(tables[name]):
-            raise InputError(
-                f"{path}: temperatures need the shift of the times of [{name}.material]; state it "
-                'by a passport, passport = "pdms.toml"'
-            )
+def _material(contact: Any) -> Mapping[str, Any]:
+    """Return the table of the material of a contact; empty if there is none."""
+    table = contact.get("material") if isinstance(contact, Mapping) else None
+    return table if isinstance(table, Mapping) else {}
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ designs by these are simulated too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from math import ceil, exp, log
@@ -18,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.clock import limited
-from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Pad, interpolated
+from viscotack.design.fast import SURROGATES, THEORIES, FastTier, interpolated
 from viscotack.design.margins import (
     Candidate,
     Judge,
@@ -72,42 +73,37 @@ def simulate(candidate: Candidate, fast: FastTier, judge: Judge, *, accuracy: fl
         known = [(x, pad) for pad in pads if not isinstance(x := fast.force(pad), str)]
         select, end = (min, "low") if name == "hold" else (max, "high")
         _, pad = select(known, key=lambda pair, end=end: getattr(pair[0], end))
-        found = _pulled(fast.problem(pad), accuracy)
-        if isinstance(found, str):
-            reasons.append(f"{name}: {found}")
-            continue
-        if judge.targets.work is None or name == "release":
-            found = {name: found["hold"]}
-        forces |= {key: choice.pads * value for key, value in found.items()}
+        try:
+            problem = fast.problem(pad)
+            found = _solved(problem, accuracy, until="pull-off")
+            unit, work = problem.scales(), problem.outputs.observables["work_to_pull_off"].unit
+            forces[name] = choice.pads * (pull_off(found).force * unit.force)
+            if judge.targets.work is not None and name == "hold":
+                joules = work_to_pull_off(found) * getattr(unit, work.scale)
+                forces["work"] = choice.pads * joules
+        except InputError as reason:
+            reasons.append(f"{name}: {reason}")
     time = None
     if judge.targets.holding_time is not None:
-        held = _held(candidate, fast, judge, accuracy)
-        if isinstance(held, str):
-            reasons.append(f"dead_load: {held}")
-        else:
-            forces["dead_load"], time = held
+        try:
+            forces["dead_load"], time = _held(candidate, fast, judge, accuracy)
+        except InputError as reason:
+            reasons.append(f"dead_load: {reason}")
     margins = {} if reasons else judge.margins(choice, forces)
     return Simulated(forces, margins, "; ".join(reasons), time)
 
 
-def _pulled(problem: Problem, accuracy: float) -> dict[str, float] | str:
-    """Return force [N] and work [J] of a pad, or a reason."""
-    try:
-        found = solve(problem, accuracy=accuracy, until="pull-off", throw=False)
-        if found.outcome is Outcome.STOPPED:
-            return found.status
-        unit = problem.outputs.observables["work_to_pull_off"].unit
-        return {
-            "hold": pull_off(found).force * problem.scales().force,
-            "work": work_to_pull_off(found) * getattr(problem.scales(), unit.scale),
-        }
-    except InputError as reason:
-        return str(reason)
+def _solved(problem: Problem, accuracy: float, **until: Any) -> Result:
+    """Return a simulation; InputError with the reason if it stops."""
+    found = solve(problem, accuracy=accuracy, throw=False, **until)
+    if found.outcome is Outcome.STOPPED:
+        raise InputError(found.status)
+    return found
 
 
 def _held(
     candidate: Candidate, fast: FastTier, judge: Judge, accuracy: float
-) -> tuple[float, float | None] | str:
+) -> tuple[float, float | None]:
     """Return the load held for the time [N], and the time under the predicted load [s].
 
     The simulated time becomes a load by the theory: that load times the ratio of the loads that the
@@ -116,32 +112,21 @@ def _held(
     choice, targets = candidate.choice, judge.targets
     assert targets.holding_time is not None, "the caller checks"
     wanted = judge.conditions.holding_time(choice.material, targets.holding_time)
-    pad: Pad = pad_of(choice, 1.0, bonded=judge.bonded)
+    pad = pad_of(choice, 1.0, bonded=judge.bonded)
     problem = fast.problem(pad)
     load, longest = candidate.forces["dead_load"].value / choice.pads, _LONGEST * wanted
     moves = (LoadTo(-load, duration=_APPLIED * wanted), Dwell(longest, hold="force"))
     held = Retraction(problem.protocol.start, None, moves)  # type: ignore[arg-type]
-    try:
-        found = solve(replace(problem, protocol=held), accuracy=accuracy, throw=False)
-        if found.outcome is Outcome.STOPPED:
-            return found.status
-        gone = found.outcome in (Outcome.JUMPED, Outcome.DETACHED)
-        time = _time(found) if gone else None  # type: ignore[arg-type]
-    except InputError as reason:
-        return str(reason)
+    found, time = _solved(replace(problem, protocol=held), accuracy), None
+    if found.outcome in (Outcome.JUMPED, Outcome.DETACHED):
+        time = 0.0  # it is over before the load is
+        with suppress(InputError):
+            time = time_to_detachment(found)
     shown = longest if time is None else max(time, _APPLIED * wanted)
     first, second = (fast.held(pad, x) for x in (wanted, shown))
     if isinstance(first, str) or isinstance(second, str):
-        return str(first)
+        raise InputError(str(first))
     return choice.pads * load * first.value / second.value, time
-
-
-def _time(found: Result) -> float:
-    """Return the time to detachment [s]; 0 if it is over before the load is."""
-    try:
-        return time_to_detachment(found)
-    except InputError:
-        return 0.0
 
 
 # Sizes of searches: of all targets together, of one alone, and of all ends of a front.

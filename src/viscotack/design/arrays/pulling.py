@@ -328,22 +328,6 @@ def pull_array(
     )
 
 
-def prepared(
-    arrays: Sequence[PadArray],
-    *,
-    speed: float,
-    preload: float,
-    accuracy: float = DEFAULT_ACCURACY,
-    time_limit: float | None = None,
-) -> Callable[[PadArray], float]:
-    """Return a function that computes the pull-off force [N] of each of some arrays.
-
-    The arrays differ in heights and works only, so that the curves of one pad serve all of them.
-    """
-    pads = _family(arrays, _pull(arrays[0], speed, accuracy, time_limit), preload)
-    return lambda array: _pulled(array, pads, preload).curve.pull_off_force
-
-
 def _pull(array: PadArray, speed: float, accuracy: float, time_limit: float | None) -> Pull:
     """Return how one pad of an array is pulled if all pads touch."""
     shared = _shared(array, len(array.positions))
@@ -435,18 +419,11 @@ def _alone(pads: Family, force: float) -> float:
     """Return the pull-off force of one pad of the mean work under a force [N]."""
     if len(pads.curves[0]) == 1 and not pads.is_elastic:
         return pads.curve(pads.deepest).pull_off_force
-    one = np.ones(1)
-
-    def missing(x: float) -> float:
-        return float(pads.start_forces(np.array([x]), one)[0]) - force
-
-    high = pads.deepest
-    while missing(high) < 0:
-        high += pads.span
-    if missing(0.0) >= 0:
-        return pads.curve(0.0).pull_off_force
-    start: Any = scipy.optimize.brentq(missing, 0.0, high, xtol=_TOLERANCE * pads.span)
-    return pads.curve(min(float(start), pads.deepest)).pull_off_force
+    try:
+        start = _level(pads, np.zeros(1), np.ones(1), force)
+    except InputError:  # it carries more where it touches
+        start = 0.0
+    return pads.curve(min(start, pads.deepest)).pull_off_force
 
 
 def _pulled(array: PadArray, pads: Family, preload: float) -> _Pulled:
@@ -624,10 +601,11 @@ def array_yield(
     """
     check_draws(draws, len(array.positions))
     arrays = [scatter.of(array, number) for number in range(draws)]
-    pull = prepared(arrays, speed=speed, preload=preload, accuracy=accuracy, time_limit=time_limit)
+    # they differ in heights and works only, so that the curves of one pad serve all of them
+    pads = _family(arrays, _pull(array, speed, accuracy, time_limit), preload)
     forces = np.empty(draws)
     for number, each in enumerate(arrays):
-        forces[number] = pull(each)
+        forces[number] = _pulled(each, pads, preload).curve.pull_off_force
         progress((number + 1) / draws)
     share = float(np.mean(forces >= load))
     return ArrayYield(share, wilson(share, draws), np.sort(forces), load)

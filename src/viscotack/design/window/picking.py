@@ -220,10 +220,25 @@ def opening_chance(
         As for :func:`viscotack.which_opens`.
     """
     check_pair(first, second)
-    opens = partial(_opens, first, second)
     reach = _FAR * sqrt(works[0] ** 2 + _STEEP**2 * works[1] ** 2 + preload**2)
-    middle = opens(0.0, 0.0, 0.0)
-    center = _critical(opens, reach)
+
+    def opens(x: float, y: float, p: float) -> SeriesOpening:
+        """Return what opens with factors exp(x), exp(y) on the works and exp(p) on preload."""
+        return opening_by_cracks(_moved(first, x, p), _moved(second, y, p))
+
+    def critical(y: float = 0.0, p: float = 0.0) -> float:
+        """Return ln of the critical work of the first contact; infinite beyond the reach."""
+        low, high = -reach, reach
+        if opens(low, y, p).nominal != 0:
+            return -inf
+        if opens(high, y, p).nominal == 0:
+            return inf
+        while high - low > _CLOSE:
+            half = (low + high) / 2
+            low, high = (half, high) if opens(half, y, p).nominal == 0 else (low, half)
+        return (low + high) / 2
+
+    middle, center = opens(0.0, 0.0, 0.0), critical()
     if isinf(center):
         chance = float(center > 0)
         ends = (chance, chance) if middle.opened is not None else (0.0, 1.0)
@@ -232,30 +247,12 @@ def opening_chance(
     for name, deviation in (("y", works[1]), ("p", preload)):
         if deviation > 0:
             step = _PART * deviation
-            ends = [_critical(opens, reach, **{name: sign * step}) for sign in (-1.0, 1.0)]
+            ends = [critical(**{name: sign * step}) for sign in (-1.0, 1.0)]
             low, high = (center if isinf(each) else each for each in ends)
             variance += ((high - low) / (2 * step) * deviation) ** 2
     band = sum(middle.bands or ())
     chances = (NormalDist().cdf((center + off) / sqrt(variance)) for off in (0.0, -band, band))
     return Chance(*chances)
-
-
-def _critical(opens: Any, reach: float, y: float = 0.0, p: float = 0.0) -> float:
-    """Return ln of the critical work of the first contact; infinite beyond the reach."""
-    low, high = -reach, reach
-    if opens(low, y, p).nominal != 0:
-        return -inf
-    if opens(high, y, p).nominal == 0:
-        return inf
-    while high - low > _CLOSE:
-        middle = (low + high) / 2
-        low, high = (middle, high) if opens(middle, y, p).nominal == 0 else (low, middle)
-    return (low + high) / 2
-
-
-def _opens(first: Problem, second: Problem, x: float, y: float, p: float) -> SeriesOpening:
-    """Return which contact opens with factors exp(x) and exp(y) on the works, exp(p) on preload."""
-    return opening_by_cracks(_moved(first, x, p), _moved(second, y, p))
 
 
 def _moved(problem: Problem, work: float, preload: float) -> Problem:
