@@ -12,7 +12,7 @@ from command_line import exit_status
 from rate_tests import LENS, holds, measured, of_other
 from solids import creep_power_law, standard_solid
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, posterior
-from viscotack.identify.covariances import SphereTests, covariance
+from viscotack.identify.covariances import SphereTests
 from viscotack.identify.forward import Forward, Interface
 from viscotack.model.materials import Passport, write_passport
 from viscotack.model.materials.conversion import slowed
@@ -109,7 +109,7 @@ def test_times_in_doubt_are_speeds_in_doubt(forward):
     force = forward.pulled(WORK, GAP, speed, PRELOAD).force
     slope = np.diff(np.log(force)) / np.log(1.1)
     scatter = np.std([np.log(one.tau0) for one in allowed(RUBBER)], ddof=1)
-    assert np.sqrt(covariance(rows)[0, 0]) == pytest.approx(slope[0] * scatter, rel=0.1)
+    assert np.std(rows[:, 0], ddof=1) == pytest.approx(slope[0] * scatter, rel=0.1)
 
 
 def test_the_posterior_agrees_with_the_profile(fit):

@@ -204,48 +204,37 @@ class FastTier:
 
     def problem(self, pad: Pad) -> Problem:
         """Return the problem of a pad; InputError if it exceeds small strain."""
-        R, q = pad.radius, pad.exponent
+        R, q, body = pad.radius, pad.exponent, HalfSpace()
+        if pad.thickness is not None:
+            nu = self.materials[pad.material].poisson_ratio
+            base = Bonded(poisson_ratio=nu) if pad.bonded else Frictionless()
+            body = Layer(pad.thickness, base)
         return Problem(
             material=self.material(pad),
             traction=self.traction,
             geometry=Sphere(R) if q is None else PowerLawProfile(1 / (q * R ** (q - 1)), q),
-            body=self._body(pad),
+            body=body,
             protocol=Retraction(AtForce(pad.preload), pad.speed, stiffness=pad.backing),
         )
-
-    def _body(self, pad: Pad) -> HalfSpace | Layer:
-        if pad.thickness is None:
-            return HalfSpace()
-        nu = self.materials[pad.material].poisson_ratio
-        return Layer(pad.thickness, Bonded(poisson_ratio=nu) if pad.bonded else Frictionless())
 
     def force(self, pad: Pad) -> Force | str:
         """Return the force of a pad, or the reason why no tier within the budget predicts it."""
         if self.between is not None:
             return self.between(pad)
-        if pad not in self.known:
-            try:
-                problem = self.problem(pad)
-                layer = pad.thickness is not None
-                self.known[pad] = self._on_layer(pad) if layer else self._predicted(problem)
-            except InputError as reason:
-                self.known[pad] = str(reason)
-        return self.known[pad]
+        predicted = self._predicted if pad.thickness is None else self._on_layer
+        return _once(self.known, pad, lambda: predicted(pad, self.problem(pad)))
 
     def held(self, pad: Pad, time: float) -> Force | str:
         """Return the dead load that a pad holds for a time [s], or the reason why none is known."""
         pad = replace(pad, speed=1.0, backing=None)  # neither matters under a dead load
-        if (pad, time) not in self.loads:
-            try:
-                load = held_load(self.problem(pad), time)
-                error = _DEVIATE * HELD_ERROR
-                found = Force(load, load * (1 - error), load * (1 + error), "steady crack")
-                self.loads[pad, time] = found
-            except InputError as reason:
-                self.loads[pad, time] = str(reason)
-        return self.loads[pad, time]
 
-    def _predicted(self, problem: Problem) -> Force:
+        def load() -> Force:
+            load, error = held_load(self.problem(pad), time), _DEVIATE * HELD_ERROR
+            return Force(load, load * (1 - error), load * (1 + error), "steady crack")
+
+        return _once(self.loads, (pad, time), load)
+
+    def _predicted(self, pad: Pad, problem: Problem) -> Force:
         found = predict(problem, budget=self.budget)
         force = problem.outputs.observables["pull_off_force"].unit
         work = problem.outputs.observables["work_to_pull_off"].unit
@@ -257,16 +246,15 @@ class FastTier:
             more = Force(found.work_to_pull_off * joule, least * joule, most * joule, found.method)
         return Force(found.pull_off_force * unit, low * unit, high * unit, found.method, more)
 
-    def _on_layer(self, pad: Pad) -> Force:
+    def _on_layer(self, pad: Pad, problem: Problem) -> Force:
         """Return the force by the steady crack at the edge of a sphere on a layer."""
-        law = self.traction
+        law, body = self.traction, problem.body
         if type(law) is not LennardJones or pad.exponent is not None or pad.backing is not None:
             raise InputError(
                 "on a layer only spheres with Lennard-Jones forces and a rigid backing are known"
             )
-        known = Forward(
-            self.material(pad), pad.radius, body=self._body(pad), computed=self.computed
-        )
+        assert isinstance(body, Layer), "of a pad with a thickness"
+        known = Forward(problem.material, pad.radius, body=body, computed=self.computed)
         speed, load = np.array([pad.speed]), np.array([pad.preload])
         given = (law.work_of_adhesion, law.equilibrium_gap, speed, load)
         if reason := str(known.changed(Interface(*given[:2]), speed, load).refused[0]):
@@ -274,6 +262,16 @@ class FastTier:
         force = float(known.pulled(*given).force[0])
         error = _DEVIATE * hypot(_ON_LAYER, float(known.layer_error(*given)[0]))
         return Force(force, force * (1 - error), force * (1 + error), "crack contact on a layer")
+
+
+def _once(known: dict[Any, Force | str], key: Any, compute: Callable[[], Force]) -> Force | str:
+    """Return a force that is computed once, or the reason why there is none."""
+    if key not in known:
+        try:
+            known[key] = compute()
+        except InputError as reason:
+            known[key] = str(reason)
+    return known[key]
 
 
 # Numbers of a pad.

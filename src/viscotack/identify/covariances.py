@@ -184,7 +184,7 @@ def joint_covariance(
     spread = others + replace(model, theory=model.theory + np.concatenate(thin)).covariance(speed)
     if allowed(series.passport):
         rows = [x.log_forces(_solids(series.passport, x.passport), interface) for x in tests]
-        spread = spread + covariance(np.concatenate(rows, axis=1))
+        spread = spread + np.cov(np.concatenate(rows, axis=1), rowvar=False)
     return spread + np.outer(warmer, warmer) + np.outer(softer, softer)
 
 
@@ -197,12 +197,6 @@ def _solids(first: Passport, second: Passport) -> Sequence[Any]:
         return solids
     factor = first.shift_factor(temperature)
     return [slowed(solid, factor) for solid in solids]
-
-
-def covariance(rows: Array) -> Array:
-    """Return the covariance of ln(force) over the speeds, from rows of solids."""
-    away = rows - rows.mean(axis=0)
-    return away.T @ away / (len(rows) - 1)
 
 
 def shift_covariance(series: RateSeries, own: SphereTests, interface: Interface) -> Array:
