@@ -92,7 +92,7 @@ def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
 
 @pytest.mark.parametrize("better_by", [0.0, 4.6, 9.2])
 def test_chance_is_that_of_two_parameters_more(better_by):
-    found = FoundGrowth(2.0, 1e-4, 1e-4, 0.5, better_by, None)
+    found = FoundGrowth(1e-4, 1e-4, better_by, None)
     assert found.chance == pytest.approx(np.exp(-better_by / 2))
 
 

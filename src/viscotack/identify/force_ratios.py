@@ -149,11 +149,6 @@ class ForceRatios:
     known: KnownRatios | None = None
     which: tuple[int, ...] = ()
 
-    @classmethod
-    def of_a_rigid_machine(cls, speeds: int) -> ForceRatios:
-        """Return the ratios of a rigid machine, which are 1."""
-        return cls(np.zeros(speeds), np.zeros((2, speeds)))
-
     def __call__(self, values: Mapping[str, Any]) -> Array:
         """Return the ratios of one interface, shape (S,), or of many, shape (N, S)."""
         if self.known is None and not self.slopes.any():

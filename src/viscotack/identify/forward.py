@@ -21,7 +21,7 @@ from viscotack.model.materials import Material
 from viscotack.model.problem import Problem
 from viscotack.model.protocol import Apart, AtForce, Move, Retraction
 from viscotack.model.traction import GentSchultz, LennardJones
-from viscotack.model.traction.resting import reference_speed
+from viscotack.model.traction.growing import reference_speed
 from viscotack.simulate.crack_contact import CrackContact, crack_contact
 from viscotack.simulate.crack_contact.by_crack import crack_contacts
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
@@ -529,16 +529,14 @@ class Opening:
 
 @dataclass(frozen=True)
 class FoundGrowth:
-    """Fitted growth of an interface with speed.
+    """What follows from the fitted strengthening and exponent of an interface.
 
     Parameters
     ----------
-    strengthening : float
-        Strength over that at rest, at `opening_speed`.
     opening_speed : float
         Opening speed of the gap under an edge in the middle of the series [m/s].
-    reference_speed, exponent : float
-        v0 [m/s] and n of the Gent-Schultz law; v0 is infinite without growth.
+    reference_speed : float
+        v0 of the Gent-Schultz law [m/s]; infinite without growth.
     better_by : float
         Reduction of the misfit compared with the best interface without growth, which has two
         parameters fewer.
@@ -547,10 +545,8 @@ class FoundGrowth:
         work of adhesion, by bulk and interface.
     """
 
-    strengthening: float
     opening_speed: float
     reference_speed: float
-    exponent: float
     better_by: float
     pulled: Pulled
 

@@ -160,15 +160,12 @@ class Objective:
         values = {p.name: float(p.outer(x)) for p, x in zip(free, found.x, strict=True)}
         return Best(values | dict(held), 2 * float(found.cost), found.fun.size)
 
-    def best_near(self, starts: Sequence[Best]) -> Best:
-        """Return the best fit from several starts."""
-        return min((self.best(near=start) for start in starts), key=lambda best: best.misfit)
-
     def best_along(self, parameter: Parameter, parts: Sequence[float]) -> Best:
         """Return the best fit from starts at parts of the range of a parameter."""
         low, high = parameter.inner(parameter.low), parameter.inner(parameter.high)
-        places = [parameter.outer(low + part * (high - low)) for part in parts]
-        return self.best_near([self.best({parameter.name: place}) for place in places])
+        places = (parameter.outer(low + part * (high - low)) for part in parts)
+        starts = [self.best({parameter.name: place}) for place in places]
+        return min((self.best(near=start) for start in starts), key=lambda best: best.misfit)
 
     def slopes(self, best: Best) -> Array:
         """Return the derivatives of residuals and priors by the search coordinates."""

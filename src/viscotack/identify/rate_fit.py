@@ -30,7 +30,7 @@ from .computed import Computed
 from .contact_time import PER_DECADE
 from .covariances import joint_covariance, shift_covariance
 from .force_ratios import Simulations, with_simulations, yielding_near
-from .forward import Changed, Forward, FoundGrowth, Interface, growing
+from .forward import Changed, Forward, FoundGrowth, Interface, Opening, growing
 from .likelihood import Best
 from .pull_off import PullOff
 from .rate_series import RateSeries
@@ -42,7 +42,6 @@ from .search import (
     Table,
     closely,
     lattice,
-    opening_near,
     settled,
     widely,
 )
@@ -300,7 +299,11 @@ def _located(
         best = plain.best()
         if series.growth:
             if opening is None:
-                opening = opening_near(plain, best)
+                # the crack speed hardly depends on the interface, because the drive sets it
+                place = plain.interface(best.values)
+                edge = np.maximum(plain.tests.pulled(place).crack_speed, series.speed)
+                middle = float(np.exp(np.mean(np.log(edge))))
+                opening = Opening(middle * place.work / forward.material.contact_modulus)
                 # the lattice does not include the larger ranges that slower speeds alone would
                 # allow
                 least_gap, *_, most = plain.table.axes["equilibrium_gap"].tolist()
@@ -395,10 +398,8 @@ def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
         return None
     without = replace(search, table=plain.table, opening=None).best()
     return FoundGrowth(
-        strengthening=best.values["strengthening"],
         opening_speed=float(search.opening.speed(best.values["equilibrium_gap"])),
         reference_speed=float(search.opening.growth(best.values).reference_speed),
-        exponent=best.values["exponent"],
         better_by=max(without.misfit - best.misfit, 0.0),
         pulled=search.tests.pulled(search.interface(best.values)),
     )

@@ -143,8 +143,8 @@ _TREND_SPEEDS, _PREFERRED = 3, 2.0
 _FEWEST = 5  # smallest number of values of an unknown
 # Parts of the range at which a search without growth starts.
 _STARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
-# With growth: number of starts, and their distance over the span of the table.
-_SEPARATE, _SHARE = 4, 0.2
+# With growth: number of starts, their distance over the span of the table, and points looked at.
+_SEPARATE, _SHARE, _LOOKED = 4, 0.2, 2000
 # Refinement of the coarse table for the search, and misfits above the minimum that are kept
 # at first, and where an interval needs more.
 _DENSE, _KEPT = 3, (30.0, 150.0)
@@ -210,7 +210,8 @@ class Search:
         """Return a search in a table by theory for the machine of the table."""
         model = ModelError.of_theory(series.theory_error, series.speed.size)
         spread = series.noise + model.covariance(series.speed)
-        rigid = ForceRatios.of_a_rigid_machine(series.speed.size)
+        # of a rigid machine
+        rigid = ForceRatios(np.zeros(series.speed.size), np.zeros((2, series.speed.size)))
         return cls(series, forward, table, spread, rigid, model)
 
     @property
@@ -278,9 +279,17 @@ class Search:
         objective = self.objective
         if self.opening is None:
             return objective.best_along(self.parameters[1], _STARTS)
+        # from the most likely points that are separate from each other
         points, misfits = self.scanned(1)
-        starts = [Best(self._values(x), 0.0, 0) for x in _separate(points, misfits)]
-        return objective.best_near(starts)
+        span = np.ptp(points, axis=0)
+        found: list[Array] = []
+        for x in points[np.argsort(misfits)[:_LOOKED]]:
+            if all(np.max(np.abs(x - other) / span) > _SHARE for other in found):
+                found.append(x)
+            if len(found) == _SEPARATE:
+                break
+        fits = (objective.best(near=Best(self._values(x), 0.0, 0)) for x in found)
+        return min(fits, key=lambda best: best.misfit)
 
     def intervals(self, best: Best, level: float) -> dict[str, Interval]:
         """Return the intervals of all unknowns."""
@@ -327,15 +336,6 @@ def _works(series: RateSeries, energy: float, per_decade: float) -> Array:
     """Return the works of adhesion of a table, for edges of at most an energy [works of it]."""
     most, span = series.largest_work, 2.0 * energy
     return np.geomspace(most / span, most, 3 + round(per_decade * float(np.log10(span))))
-
-
-def opening_near(plain: Search, best: Best) -> Opening:
-    """Return the opening speed at which the strengthening of a series is defined."""
-    interface, speed = plain.interface(best.values), plain.series.speed
-    # the crack speed hardly depends on the interface, because the drive sets it
-    edge = plain.tests.pulled(interface).crack_speed
-    middle = float(np.exp(np.mean(np.log(np.maximum(edge, speed)))))
-    return Opening(middle * interface.work / plain.forward.material.contact_modulus)
 
 
 def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
@@ -585,18 +585,6 @@ def closely(coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]
 def _spaced(low: float, high: float, apart: float) -> Array:
     """Return evenly spaced values with a largest distance, at least five."""
     return np.linspace(low, high, max(_FEWEST, 1 + int(np.ceil((high - low) / apart - 1e-9))))
-
-
-def _separate(points: Array, misfits: Array) -> Array:
-    """Return the most likely points that are separate from each other."""
-    span = np.ptp(points, axis=0)
-    found: list[int] = []
-    for i in np.argsort(misfits)[:2000]:
-        if all(np.max(np.abs(points[i] - points[j]) / span) > _SHARE for j in found):
-            found.append(int(i))
-        if len(found) == _SEPARATE:
-            break
-    return points[found]
 
 
 def _shapes(series: RateSeries) -> Callable[[Array], Array]:

@@ -186,12 +186,6 @@ class PadArray:
         """Whether all pads have the same height and work."""
         return bool(np.ptp(self.rises) == 0 and np.ptp(self.works) == 0)
 
-    @property
-    def are_alike(self) -> bool:
-        """Whether every pad carries the same force."""
-        apart = self.backing.base_modulus is None
-        return self.are_equal and (apart or len(self.positions) <= 2)
-
 
 def grid(rows: int, columns: int, spacing: float) -> tuple[tuple[float, float], ...]:
     """Return the places of pads in rows and columns at a spacing [m].
@@ -251,11 +245,6 @@ class ArrayPull:
     method: str
     why: str
 
-    @property
-    def largest_jump(self) -> int:
-        """Largest number of pads that detach at one instant."""
-        return max((count for _, count in self.jumps), default=0)
-
 
 def pull_array(
     array: PadArray,
@@ -297,7 +286,9 @@ def pull_array(
     found = _pulled(array, pads, preload)
     alone = _alone(pads, preload / count)
     band, why = pads.band, f"the tier of one pad ({pads.band:.2%})"
-    if pull.shared > 0 and not pull.is_elastic and not array.are_alike:
+    # every pad carries the same force if all are equal, unless more than two interact
+    alike = array.are_equal and (array.backing.base_modulus is None or count <= 2)
+    if pull.shared > 0 and not pull.is_elastic and not alike:
         apart = _pulled(array, _family([array], replace(pull, shared=0.0), preload), preload)
         off = abs(apart.curve.pull_off_force / found.curve.pull_off_force - 1)
         band += _OF_SHARE * off
@@ -442,7 +433,11 @@ def _pulled(array: PadArray, pads: Family, preload: float) -> _Pulled:
         plate, ends = coupled(curves, heights, c[np.ix_(touching, touching)])
     drive = plate.behind(backing.stiffness)
     released = np.full(len(array.positions), np.nan)
-    released[touching] = drive.start - _drive_at(plate, backing.stiffness, ends)
+    # positions of the drive at which the plate has passed the ends
+    soft = 0.0 if backing.stiffness is None else 1 / backing.stiffness
+    least = np.minimum.accumulate(plate.position + plate.force * soft)
+    place = np.searchsorted(-plate.position, -ends, side="left")
+    released[touching] = drive.start - least[np.minimum(place, least.size - 1)]
     forces = np.zeros(len(array.positions))
     forces[touching] = [each.force[0] for each in curves]
     order = np.array(touching)[np.argsort(-ends, kind="stable")]
@@ -469,14 +464,6 @@ def _compliances(array: PadArray, radius: float) -> Array | None:
     if modulus is None:
         return None
     return interactions(np.array(array.positions, dtype=float), modulus, radius=radius)
-
-
-def _drive_at(plate: Curve, stiffness: float | None, ends: Array) -> Array:
-    """Return the positions of the drive at which the plate has passed positions [m]."""
-    soft = 0.0 if stiffness is None else 1 / stiffness
-    least = np.minimum.accumulate(plate.position + plate.force * soft)
-    place = np.searchsorted(-plate.position, -ends, side="left")
-    return least[np.minimum(place, least.size - 1)]
 
 
 def _jumps(released: Array, travel: float) -> tuple[tuple[float, int], ...]:

@@ -156,8 +156,7 @@ def rates_record(fit: Any) -> dict[str, Any]:
     if body.word == "layer":
         layer = read(body, "thickness_m", "poisson_ratio") | {"base": body.base.word}
     if fit.growth is not None:
-        names = ("strengthening", "opening_speed_m_s", "exponent", "reference_speed_m_s")
-        growth, pulled = read(fit.growth, *names, "better_by", "chance"), fit.growth.pulled
+        found, pulled, values = fit.growth, fit.growth.pulled, fit.best.values
         shares = {
             "speed_m_s": fit.given.speed,
             "edge_speed_m_s": pulled.crack_speed,
@@ -165,7 +164,13 @@ def rates_record(fit: Any) -> dict[str, Any]:
             "bulk": pulled.energy / pulled.interface,
             "interface": pulled.interface,
         }
-        growth["shares"] = rows_of(shares)
+        growth = {
+            "strengthening": values["strengthening"],
+            **read(found, "opening_speed_m_s"),
+            "exponent": values["exponent"],
+            **read(found, "reference_speed_m_s", "better_by", "chance"),
+            "shares": rows_of(shares),
+        }
     return {
         **interface_record(fit),
         "range_bound_m": fit.given.range_bound,
