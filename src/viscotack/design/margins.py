@@ -285,55 +285,38 @@ def solid_limits(fast: FastTier, space: DesignSpace, targets: Targets) -> tuple[
     """
     if space.thickness is not None or space.exponent is not None:
         return ()
-    each = [_of_material(name, fast, space) for name in fast.materials]
-    found = []
-    for target, value in wanted(targets).items():
-        if target == "work":
-            continue
-        select = min if target == "release" else max
-        reach, why = select((one[target] for one in each), key=lambda pair: pair[0])
-        found.append(Limit(target, value, reach, "solid", why))
-    return tuple(found)
-
-
-def _of_material(name: str, fast: FastTier, space: DesignSpace) -> Mapping[str, tuple[float, str]]:
-    """Return the bound of each target and its words, for one material."""
-    most, least, ratio = (-inf, ""), (inf, ""), (-inf, "")
     moduli = [None] if space.modulus is None else [space.modulus.low, space.modulus.top]
     radii = np.geomspace(space.radius.low, space.radius.top, _RADII).tolist()
-    for R, modulus in product(radii, moduli):
-        room = space.most_pads(R)
-        if not room:
+    reached = {"hold": [(-inf, "")], "release": [(inf, "")], "ratio": [(-inf, "")]}
+    sizes = list(product(radii, moduli))
+    for name, (R, modulus) in product(fast.materials, sizes):
+        many = space.most_pads(R)
+        if not many:
             continue
         try:
             problem = fast.problem(Pad(name, R, _LIGHT, 1.0, modulus))
         except InputError:  # the sphere is too small for the range of attraction
             continue
         groups = lennard_jones_alike(problem.groups())
-        k, unit = groups.modulus_ratio, problem.scales().force
-        slow, fast_one = (float(pull_off_ratio(groups.tabor * x)) for x in (1.0, k ** (1 / 3)))
+        k, unit, few = groups.modulus_ratio, problem.scales().force, int(space.pads.low)
+        slow, quick = (float(pull_off_ratio(groups.tabor * x)) for x in (1.0, k ** (1 / 3)))
         words = f"{readable(unit, 'N', digits=3)} (1.5 pi R dg, R = {readable(R, 'm', digits=3)})"
-        few, many = int(space.pads.low), room
-        most = max(
-            most,
-            (
-                many * unit * fast_one / k,
-                f"{many} times {words} times {fast_one / k:.4g} (f/k) of the instantaneous solid",
-            ),
+        hold = f"{many} times {words} times {quick / k:.4g} (f/k) of the instantaneous solid"
+        release = f"{few} times {words} times {slow:.3g} (f) of the relaxed solid"
+        ratio = (
+            f"instantaneous over relaxed modulus (1/k = {1 / k:.4g}), times {quick / slow:.3g} for "
+            "the range of attraction"
         )
-        least = min(
-            least,
-            (few * unit * slow, f"{few} times {words} times {slow:.3g} (f) of the relaxed solid"),
-        )
-        ratio = max(
-            ratio,
-            (
-                fast_one / slow / k,
-                f"instantaneous over relaxed modulus (1/k = {1 / k:.4g}), times "
-                f"{fast_one / slow:.3g} for the range of attraction",
-            ),
-        )
-    return {"hold": most, "release": least, "ratio": ratio, "dead_load": most}
+        reached["hold"].append((many * unit * quick / k, hold))
+        reached["release"].append((few * unit * slow, release))
+        reached["ratio"].append((quick / slow / k, ratio))
+    reached["dead_load"] = reached["hold"]
+    found = []
+    for target, value in wanted(targets).items():
+        if target in reached:
+            reach, why = (min if target == "release" else max)(reached[target])
+            found.append(Limit(target, value, reach, "solid", why))
+    return tuple(found)
 
 
 # Points, and where normal deviates are cut.

@@ -8,10 +8,11 @@ pull-off: the force over the number of pads and over the load sharing factor.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf, nan
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 
@@ -139,8 +140,13 @@ def holding(
     holds = True if load.force <= low else False if load.force > high else None
     payload = low / (load.safety_factor * (GRAVITY + load.acceleration))
     release = float(np.nanmax(found.released)) / speed
-    how = {"speed": speed, "preload": preload, "accuracy": accuracy, "time_limit": time_limit}
-    slow = _lasting(array, how)
+    solid, how = array.pad.material, {"accuracy": accuracy, "time_limit": time_limit}
+    relaxed = Elastic(rubbery_modulus=solid.rubbery_modulus, poisson_ratio=solid.poisson_ratio)
+    pad = replace(array.pad, material=relaxed, traction=at_rest(array.pad.traction))
+    slow = None
+    with suppress(InputError):  # relaxed pads may have no such start
+        resting = pull_array(replace(array, pad=pad), speed=speed, preload=preload, **how)
+        slow = resting.interval[0]
     lasting = None if slow is None else slow / (load.safety_factor * GRAVITY)
     held = partial(Holding, holds, load.force, payload, lasting)
     if array.pad.groups().modulus_ratio == 1:
@@ -150,21 +156,10 @@ def holding(
             return held(nan, release, "not computed for an interface that grows with its speed")
         above = load.weight > found.pull_off_force
         return held(0.0 if above else inf, release, "elastic pads do not creep")
-    each = load.weight / (len(array.positions) * found.load_sharing)
-    start = preload / len(array.positions)
-    time, why = _time(array.pad, each, start, accuracy, time_limit)
+    count = len(array.positions)
+    share = load.weight / (count * found.load_sharing)
+    time, why = _time(array.pad, share, preload / count, accuracy, time_limit)
     return held(time, release, why)
-
-
-def _lasting(array: PadArray, how: dict[str, Any]) -> float | None:
-    """Return the largest dead load that never creeps off [N]: the slow pull-off force, if any."""
-    solid = array.pad.material
-    relaxed = Elastic(rubbery_modulus=solid.rubbery_modulus, poisson_ratio=solid.poisson_ratio)
-    pad = replace(array.pad, material=relaxed, traction=at_rest(array.pad.traction))
-    try:
-        return pull_array(replace(array, pad=pad), **how).interval[0]
-    except InputError:
-        return None
 
 
 def preload_after(
