@@ -117,12 +117,13 @@ def _contact(
     if "protocol" in table:
         raise InputError(f"{path}: [{name}.protocol] is stated by [pull]; remove it")
     protocol = {"preload_force": f"{preload!r} N", "speed": f"{speed!r} m/s"}
+    if temperature is not None:
+        table = {**table, "material": {**table["material"], "temperature": f"{temperature!r} K"}}
     return case_of_tables(
         {**table, "protocol": protocol},
         where=f"{path}, [{name}]",
         also=also,
         beside=reading.beside,
-        temperature=temperature,
     )
 
 
