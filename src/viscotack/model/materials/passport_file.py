@@ -49,8 +49,7 @@ def write_passport(passport: Passport, path: Target) -> None:
 
     Examples
     --------
-    >>> from dataclasses import replace
-    from pathlib import Path
+    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from viscotack.model.materials.library import published
     >>> with TemporaryDirectory() as folder:
@@ -145,8 +144,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
 
     Examples
     --------
-    >>> from dataclasses import replace
-    from pathlib import Path
+    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from viscotack.model.materials.library import published
     >>> with TemporaryDirectory() as folder:
