@@ -64,7 +64,7 @@ def test_a_line_above_the_columns_states_the_temperature_with_its_unit(line, kel
 def test_a_temperature_that_cannot_be_read_or_changes_is_noted(tmp_path):
     count = len(LINES) - 1
     ramp = only(with_column(tmp_path / "a.csv", "Temperature [°C]", np.linspace(20, 40, count)))
-    assert "the temperature changes from 20.0 to 40.0 C during the cycle" in ramp.source.notes
+    assert "the temperature changes from 20 C to 40 C during the cycle" in ramp.source.notes
     unknown = only(with_column(tmp_path / "b.csv", "Temperature", np.full(count, 35.0)))
     assert unknown.temperature is None
     assert any(note.startswith("temperature not read") for note in unknown.source.notes)

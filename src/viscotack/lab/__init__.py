@@ -5,8 +5,7 @@ from viscotack.model.materials.shift import FittedShift as ShiftFit
 from .fit.fitting import allow_for_shifts, fit
 from .fit.master_curve import contradiction, master_curve, superposed
 from .fit.report import FitReport, issued
-from .fit.shift_factors import shift_factors
-from .fit.shift_laws import fit_arrhenius, fit_wlf, nearest_law
+from .fit.shift_factors import fit_arrhenius, fit_wlf, nearest_law, shift_factors
 from .fit.superposition import at_one_temperature, superposition
 from .options import Options, TackOptions
 from .reading import (

@@ -108,9 +108,7 @@ def master_curve(
     unknown, many = bool(np.any(np.isnan(temperature))), bool(np.ptp(temperature) > GAP)
     if reference is None:
         if shift is not None or many:
-            known = temperature[np.isfinite(temperature)] - 273.15
-            span = f"{known.min(initial=np.inf):.1f} to {known.max(initial=-np.inf):.1f} C"
-            raise InputError(f"sweeps from {span}, or with a shift, need `reference_temperature`")
+            raise InputError("several temperatures, or a shift, need `reference_temperature`")
         return _moved(sweeps, None if unknown else float(np.mean(temperature)))
     if unknown:
         raise InputError("the temperature of some points is unknown; set `temperature`")

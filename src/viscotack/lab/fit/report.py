@@ -12,7 +12,7 @@ from viscotack.model.materials.passport import Evidence, Origin, Passport
 from viscotack.model.materials.shift import Shift, TabulatedShift
 
 from .observed import Observed
-from .shift_laws import nearest_law
+from .shift_factors import nearest_law
 
 # Difference of the criterion within which the data do not distinguish two models.
 ALIKE = 2.0

@@ -8,6 +8,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab.sweeps import celsius
 
 _NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
 _PLAIN = re.compile(r"[0-9.eE+\- ]*")
@@ -176,7 +177,7 @@ def doubtful_temperature(kelvins: Array, in_kelvin: bool) -> list[str]:
     Examples
     --------
     >>> doubtful_temperature(np.array([566.15, 571.15]), False)
-    ['check: 293 to 298 C would be temperatures of a room if in kelvin']
+    ['check: 293 C to 298 C would be temperatures of a room in kelvin']
     """
     known = kelvins[np.isfinite(kelvins)]
     if not known.size:
@@ -184,10 +185,9 @@ def doubtful_temperature(kelvins: Array, in_kelvin: bool) -> list[str]:
     low, high = float(known.min()), float(known.max())
     if in_kelvin and high < _COLD:
         return [f"check: {low:.4g} to {high:.4g} K would be usual if in Celsius"]
-    low, high = low - 273.15, high - 273.15
-    if in_kelvin or low < _ROOM[0] or high > _ROOM[1]:
+    if in_kelvin or low - 273.15 < _ROOM[0] or high - 273.15 > _ROOM[1]:
         return []
-    return [f"check: {low:.4g} to {high:.4g} C would be temperatures of a room if in kelvin"]
+    return [f"check: {celsius(low)} to {celsius(high)} would be temperatures of a room in kelvin"]
 
 
 def doubtful_modulus(modulus: Array) -> list[str]:

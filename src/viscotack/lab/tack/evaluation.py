@@ -17,6 +17,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab.sweeps import celsius
 from viscotack.units import readable
 
 from .baseline import (
@@ -255,8 +256,8 @@ def _temperature(record: TackRecord, span: slice) -> tuple[float | None, tuple[s
     rows = rows[np.isfinite(rows)]
     if not rows.size:
         return None, ()
-    low, high = float(rows.min()) - 273.15, float(rows.max()) - 273.15
-    change = f"the temperature changes from {low:.1f} to {high:.1f} C during the cycle"
+    low, high = float(rows.min()), float(rows.max())
+    change = f"the temperature changes from {celsius(low)} to {celsius(high)} during the cycle"
     return float(rows.mean()), (change,) if high - low > _STEADY else ()
 
 
