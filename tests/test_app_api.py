@@ -8,7 +8,7 @@ from fastapi import FastAPI
 
 from front_ends import Client, served
 from viscotack.app.api import application
-from viscotack.app.api.guard import guard
+from viscotack.app.api.routes import guard
 from viscotack.app.engine.jobs import Engine, Limits
 from viscotack.app.operations.parts.solid import EXAMPLES, FIRST
 

@@ -45,8 +45,7 @@ def application(
         ) from None
     from viscotack.version import __version__
 
-    from .guard import guard
-    from .routes import refusals, routes
+    from .routes import guard, refusals, routes
 
     engine = Engine() if engine is None else engine
 

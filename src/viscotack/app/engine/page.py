@@ -24,15 +24,7 @@ from viscotack.app.operations.theory import pad_of
 from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError, OutOfRange
 from viscotack.files.toml import parse_toml
-from viscotack.model.geometry import (
-    Bonded,
-    Disc,
-    FlatPunch,
-    Frictionless,
-    Layer,
-    MeasuredProfile,
-    PowerLawProfile,
-)
+from viscotack.model import geometry
 from viscotack.model.problem import Problem, plane, revolution
 from viscotack.model.problem.case_file import STARTS, STRENGTH, ProfilePoint
 from viscotack.model.problem.nouns import known
@@ -88,7 +80,7 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
             {
                 "word": word,
                 "words": (kind.__doc__ or "").strip().partition("\n")[0].removeprefix("Describe "),
-                "fields": _fields(ProfilePoint if kind is PowerLawProfile else kind),
+                "fields": _fields(ProfilePoint if kind is geometry.PowerLawProfile else kind),
                 "symmetry": getattr(kind, "symmetry", ""),
             }
             for word, kind in kinds.items()
@@ -101,10 +93,10 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
     return {
         "material": choices(nouns.materials),
         "interface": laws,
-        "shape": choices(nouns.shapes, MeasuredProfile),
+        "shape": choices(nouns.shapes, geometry.MeasuredProfile),
         "layer": {
-            "fields": _fields(Layer),
-            "bases": [{"word": base.word} for base in (Frictionless, Bonded)],
+            "fields": _fields(geometry.Layer),
+            "bases": [{"word": base.word} for base in (geometry.Frictionless, geometry.Bonded)],
         },
         "protocol": {"revolution": _protocol(revolution.SI), "plane": _protocol(plane.SI)},
     }
@@ -232,7 +224,7 @@ class Quick(OfCase):
             "moduli": _moduli(problem.material),
             "notes": [],
         }
-        if isinstance(problem.geometry, FlatPunch):
+        if isinstance(problem.geometry, geometry.FlatPunch):
             found["curves"]["elastic"] = _pad(problem)
         else:
             _elastic(problem, found)
@@ -299,7 +291,7 @@ def warm() -> None:
 
 def _axes(problem: Any) -> dict[str, Any]:
     """Return words and units of what is drawn."""
-    kind = PLANE if isinstance(problem.geometry, FlatPunch) else REVOLUTION
+    kind = PLANE if isinstance(problem.geometry, geometry.FlatPunch) else REVOLUTION
     pulled = _pulled(problem)
     named = {name: kind.of(name) for name in ("force", "depth")}
     named |= {name: kind.observables[name] for name in (pulled, _WORK)}
@@ -338,7 +330,7 @@ def _moduli(material: Any) -> dict[str, Any]:
 
 def _elastic(problem: Any, found: dict[str, Any]) -> None:
     """Add the curve of the relaxed solid, from the start to detachment on a rigid drive."""
-    if isinstance(problem.geometry, Disc):
+    if isinstance(problem.geometry, geometry.Disc):
         found["notes"].append("the JKR curve of a disc, which detaches as a whole, is not drawn")
         return
     solid: Any = {
@@ -422,7 +414,7 @@ def _learned(problem: Any, found: dict[str, Any]) -> None:
     if curve is None:
         found["notes"].append(f"surrogate: {answer.why}")
     else:
-        count = "6,000" if isinstance(problem.geometry, FlatPunch) else "30,000"
+        count = "6,000" if isinstance(problem.geometry, geometry.FlatPunch) else "30,000"
         found["curves"]["surrogate"] = _curve(
             f"learned from {count} simulations",
             curve.depth * problem.scales().length,

@@ -9,17 +9,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .options import (
-    Output,
-    binary_file,
-    case,
-    csv_file,
-    main_file,
-    number,
-    option,
-    picture,
-    switch,
-)
+from .options import Output, binary_file, case, csv_file, main_file, number, option, picture, switch
 from .parts.record_words import read, rows_of
 from .request import Answer, Caller, Content, Request, write_file
 from .simulate import Accuracy, Limit

@@ -11,9 +11,9 @@ from viscotack.units import parse
 
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
 from .options import csv_file, input_file, main_file, number, option, picture, text
+from .parts.files import refusals
 from .parts.record_words import read
 from .parts.records import forecast_rows, interface_record
-from .parts.rig import refusals
 from .request import Answer, Caller, Request
 from .simulate import HowLong
 

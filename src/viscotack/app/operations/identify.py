@@ -6,22 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
-from viscotack.app.operations.options import (
-    Number,
-    csv_file,
-    main_file,
-    named,
-    number,
-    option,
-    picture,
-    switch,
-)
-from viscotack.app.operations.parts.record_words import estimates, read
-from viscotack.app.operations.parts.rig import Rig, refusals
-from viscotack.app.operations.parts.solid import OnLayer, Solid, solid_of
-from viscotack.app.operations.request import Answer, Caller
-from viscotack.app.operations.simulate import HowLong
 from viscotack.errors import InputError
+
+from .options import Number, csv_file, main_file, named, number, option, picture, switch
+from .parts.files import Rig, refusals
+from .parts.record_words import estimates, read
+from .parts.solid import OnLayer, Solid, solid_of
+from .request import Answer, Caller
+from .simulate import HowLong
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target

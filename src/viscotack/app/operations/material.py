@@ -18,11 +18,12 @@ from viscotack.app.operations.options import (
     text,
     two_of,
 )
-from viscotack.app.operations.parts.dma import Dma, Shifting
-from viscotack.app.operations.parts.solid import APassport, passport_of
-from viscotack.app.operations.request import Answer, Caller, Request
 from viscotack.errors import InputError
 from viscotack.units import parse, readable
+
+from .parts.files import Dma, Shifting
+from .parts.solid import APassport, passport_of
+from .request import Answer, Caller, Request
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport
@@ -136,7 +137,7 @@ class ListMaterials(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the library."""
-        from viscotack.app.operations.parts.solid import library
+        from .parts.solid import library
 
         found = library()
         lines = []

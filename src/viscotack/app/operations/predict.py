@@ -98,7 +98,6 @@ class Predict(Request):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.plot.prediction import draw_prediction
         from viscotack.prediction.predict import predict
         from viscotack.prediction.prediction import prediction_summary
         from viscotack.result import Outcome
@@ -128,13 +127,19 @@ class Predict(Request):
         record = prediction_summary(found)
         if result is not None:
             record |= _comparison(found, record, result)
+
+        def draw() -> Any:
+            from viscotack.plot.prediction import draw_prediction
+
+            return draw_prediction(found, result)
+
         return Answer(
             found,
             data=record,
             words=_shown(found, record, self.why),
             units=units_of(found.problem.groups().outputs),
             files={"curve": {} if found.curve is None else _curve(found)},
-            pictures={"plot": lambda: draw_prediction(found, result)},
+            pictures={"plot": draw},
             notes=stated.improbable,
             status=int(result is not None and result.outcome is Outcome.STOPPED),
         )

@@ -3,12 +3,11 @@
 from pathlib import Path
 from typing import Any, ClassVar
 
-from viscotack.app.operations.parts.dma import ShiftLaw
-from viscotack.app.operations.parts.tables import drawn
 from viscotack.errors import InputError
 
 from .options import binary_file, csv_file, number, picture
-from .parts.rig import Rig, refusals
+from .parts.files import Rig, ShiftLaw, refusals
+from .parts.tables import drawn
 from .request import Answer, Caller, write_file
 
 _MOST = 1500  # points of a curve on the page
@@ -53,7 +52,6 @@ class ReadTests(Rig, ShiftLaw):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
-        from viscotack.app.operations.parts.tables import heading, write_workbook
         from viscotack.lab.tack.repeats import speed_table
         from viscotack.plot.tack import draw_tests
 
@@ -63,6 +61,7 @@ class ReadTests(Rig, ShiftLaw):
             repeat_rows,
             tests_record,
         )
+        from .parts.tables import heading, write_workbook
 
         found = self.survey(caller)
         law = self.referred(caller)
