@@ -155,6 +155,8 @@ class Lane:
                             "less accuracy or a smaller problem, or run viscotack on your own "
                             "machine"
                         )
+                if future.cancelled():  # its process was ended before it had begun
+                    raise BrokenProcessPool("it was killed")
                 kept = True
                 return future.result()
             except (BrokenProcessPool, EOFError) as error:

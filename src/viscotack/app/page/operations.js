@@ -6,7 +6,7 @@ import { Form, compute } from "./form.js";
 const EXAMPLES = ["design", "window", "array", "rough"];
 // What a command line says of files, which the page saves by buttons.
 const ON_THE_LINE = /(; - is standard output|,? to an? \.\w+.*)\.?$/;
-const ENDINGS = { csv: ".csv", c: ".h", fmu: ".fmu", parquet: ".parquet", mat: ".mat", xlsx: ".xlsx", maps: ".npz", film: ".gif", movie: ".mp4" };
+const ENDINGS = { csv: ".csv", c: ".h", fmu: ".fmu", parquet: ".parquet", mat: ".mat", xlsx: ".xlsx", maps: ".npz", film: ".gif" };
 
 // A view of some operations, or of all; alone, without the case of the page, where they are named.
 export const operations = (id, ...words) => (host, store) => {
