@@ -31,7 +31,7 @@ from viscotack.simulate.grid.plane import Device, Plane, memory
 from viscotack.simulate.grid.run import march_on_grid, relaxed
 from viscotack.simulate.machine import legs_of, longest_time, reached, spring_travel
 from viscotack.simulate.settings import Settings
-from viscotack.simulate.solver import modes_of_run
+from viscotack.simulate.solver import modes_of_run, part_of
 from viscotack.simulate.verdict import status_of
 from viscotack.version import __version__
 
@@ -128,7 +128,17 @@ def pull(
     '3.76 mN'
     """
     began = perf_counter()
-    warnings = _resolved(problem, force_coarse)
+    warnings, pixels, zone = (), problem.zone.pixels, problem.zone.length
+    if pixels < COARSE:
+        longer = problem.traction.equilibrium_gap * np.sqrt(FINE / pixels)
+        words = (
+            f"the zone at an edge is {zone:.3g} m long and has {pixels:.2g} pixels of "
+            f"{problem.surface.pixel:.3g} m; {FINE:g} are needed, as with pixels of "
+            f"{zone / FINE:.3g} m, or an equilibrium gap of {longer:.3g} m"
+        )
+        if pixels < COARSEST and not force_coarse:
+            raise InputError(words)
+        warnings = (words,)
     contact = problem.contact.on(device)
     if device != "cpu" and isinstance(problem.traction, Tabulated):
         raise InputError(
@@ -139,10 +149,6 @@ def pull(
     kept = None
     if checkpoint is not None:
         kept = Checkpoint.opened(Path(checkpoint), _key(problem, settings, maps), every)
-
-    def part(begin: float, end: float) -> Callable[[float], None] | None:
-        tell = progress
-        return None if tell is None else lambda done: tell(begin + (end - begin) * done)
 
     # the modes follow from the start, which needs memory itself
     check_memory(contact.plane, 0)
@@ -157,30 +163,13 @@ def pull(
             raise InputError(f"{limit} before the relaxed start was found") from None
         except ArithmeticError as reason:
             raise InputError(f"the relaxed start was not found: {reason}") from None
-        run = _run(problem, contact, start, settings, maps, kept, part(0.0, share))
+        run = _run(problem, contact, start, settings, maps, kept, part_of(progress, 0.0, share))
         result = _result(problem, run, warnings)
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            errors = _errors(problem, result, settings, contact, part(share, 1.0))
+            errors = _errors(problem, result, settings, contact, part_of(progress, share, 1.0))
             result = replace(result, error_estimate=errors)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     return replace(result, statistics=statistics)
-
-
-def _resolved(problem: RoughProblem, forced: bool) -> tuple[str, ...]:
-    """Return a warning where a zone has few pixels; InputError where it has less than one."""
-    pixels = problem.zone.pixels
-    if pixels >= COARSE:
-        return ()
-    law = problem.traction
-    longer = law.equilibrium_gap * np.sqrt(FINE / pixels)
-    words = (
-        f"the zone at an edge is {problem.zone.length:.3g} m long and has {pixels:.2g} pixels of "
-        f"{problem.surface.pixel:.3g} m; {FINE:g} are needed, as with pixels of "
-        f"{problem.zone.length / FINE:.3g} m, or an equilibrium gap of {longer:.3g} m"
-    )
-    if pixels < COARSEST and not forced:
-        raise InputError(words)
-    return (words,)
 
 
 def _run(

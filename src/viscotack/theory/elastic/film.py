@@ -84,7 +84,7 @@ def pull_off(
     """
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     if not isinstance(shape, Disc):
-        return _ends(shape, body, **solid)[1]
+        return relaxed.ends(shape, body=body, **solid)[1]
     if not shape.is_sharp:
         return relaxed.strongest(shape, largest=shape.radius, body=body, **solid)
     out = float(np.asarray(indenter.drawn(shape.radius, shape=shape, body=body, **solid)))
@@ -126,7 +126,8 @@ def instability(
     '-1.04 um'
     """
     _refuse_disc(shape)
-    return _ends(shape, body, contact_modulus, work_of_adhesion)[0]
+    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    return relaxed.ends(shape, body=body, **solid)[0]
 
 
 def work_to_pull_off(
@@ -276,12 +277,3 @@ def half_space_thickness(
         raise InputError(f"tolerance is too small for this layer: {tolerance:g}; give a larger one")
     found: float = scipy.optimize.brentq(excess, log, log + np.log(_STEP), xtol=1e-5)  # type: ignore[assignment]
     return length * float(np.exp(found))
-
-
-def _ends(
-    shape: Shape, body: HalfSpace | Layer, contact_modulus: float, work_of_adhesion: float
-) -> tuple[Point, Point]:
-    positive(contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
-    return relaxed.ends(
-        shape, body=body, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
-    )

@@ -26,7 +26,6 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, Values, at_least, contact_scales, plain, positive
@@ -180,7 +179,9 @@ def contact_radius_at_force(
     """
     length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
     P = at_least(-1.5 * load, _NO_FORCE, force=force) / load
-    return plain(length * np.cbrt(_root_at_force(P) ** 2))
+    # the larger root c = a^(3/2) of 4/3 c^2 - sqrt(8) c - P = 0
+    root = 0.75 * (np.sqrt(2) + np.sqrt(np.maximum(2 + 4 * P / 3, 0)))
+    return plain(length * np.cbrt(root**2))
 
 
 def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
@@ -444,11 +445,6 @@ def gap(
     a, r, lift = _lift(position, contact_radius, contact_modulus, work_of_adhesion)
     angle = np.arctan2(np.sqrt(np.maximum((r - a) * (r + a), 0)), a)
     return plain(hertz.gap(r, contact_radius=a, radius=radius) + lift * 2 / np.pi * angle)
-
-
-def _root_at_force(P: npt.NDArray[np.float64]) -> Any:
-    r"""Return the larger root c = a^(3/2) of :math:`\frac43 c^2 - \sqrt8 c - P = 0`."""
-    return 0.75 * (np.sqrt(2) + np.sqrt(np.maximum(2 + 4 * P / 3, 0)))
 
 
 def _lift(

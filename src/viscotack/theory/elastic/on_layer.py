@@ -269,19 +269,14 @@ class _Solved:
 @lru_cache(maxsize=64)
 def _solved(a: float, base: Base, panels: int) -> _Solved:
     """Return the solved equation at a radius [b], with some panels more for the shape."""
-    s, weight = _nodes(a, panels)
+    edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + panels + 1)
+    angle, weight = gauss(edges, _POINTS)
+    s, weight = a * np.sin(angle), a * np.cos(angle) * weight
     t, kernel = _waves(base, 2 * a)
     waves = np.cos(np.multiply.outer(np.append(s, a), t))
     k = 2 / np.pi * (waves * kernel) @ waves[:-1].T * weight
     inverse = np.linalg.inv(np.eye(len(s)) + k[:-1])
     return _Solved(a, s, weight, inverse, k[-1], inverse.sum(axis=1))
-
-
-def _nodes(a: float, panels: int) -> tuple[npt.NDArray, npt.NDArray]:
-    """Return nodes and weights from 0 to a radius [b]."""
-    edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + panels + 1)
-    angle, weight = gauss(edges, _POINTS)
-    return a * np.sin(angle), a * np.cos(angle) * weight
 
 
 def _waves(base: Base, largest: float) -> tuple[npt.NDArray, npt.NDArray]:

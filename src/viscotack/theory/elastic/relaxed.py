@@ -105,7 +105,13 @@ def contact(
         fold, _ = ends(shape, body=body, **solid)
         a = start.contact_radius if start.contact_radius >= fold.contact_radius else None
     elif theory is jkr:
-        a = _radius_of_sphere(start, case)
+        # None past the end of the branch
+        if isinstance(start, AtDepth):
+            last, of = jkr.instability(**case).depth, jkr.contact_radius_at_depth
+        else:
+            last, of = jkr.pull_off(**case).force, jkr.contact_radius_at_force
+        is_past = start.value < np.asarray(last) * (1 + ROUND_OFF)
+        a = None if is_past else float(np.asarray(of(start.value, **case)))
     else:
         by = theory.depth if isinstance(start, AtDepth) else theory.force
         value = start.depth if isinstance(start, AtDepth) else start.force
@@ -163,7 +169,8 @@ def ends(
         brackets = [length * np.exp(_NEAR)] * 2
     else:
         looks = _radii(shape, body, length)
-        brackets = [_around_least(looks, function) for function in (depth, force)]
+        least_at = [int(np.argmin(function(looks))) for function in (depth, force)]
+        brackets = [looks[[max(i - 1, 0), min(i + 1, looks.size - 1)]] for i in least_at]
     radii = [least(*each) for each in zip((depth, force), brackets, strict=True)]
     if isinstance(body, Layer) and not on_layer.is_power(body):
         force(max(radii) * _BESIDE_END)  # an error if the least lies beyond the radii of the theory
@@ -398,23 +405,6 @@ def _largest_among(radii: Array, function: Callable[[Any], Any], value: float) -
         lambda a: function(a) - value, *bracket, xtol=_TOLERANCE * bracket[0]
     )
     return float(found)
-
-
-def _around_least(radii: Array, function: Callable[[Any], Any]) -> Array:
-    """Return the radii on both sides of that of the least value."""
-    place = int(np.argmin(function(radii)))
-    return radii[[max(place - 1, 0), min(place + 1, radii.size - 1)]]
-
-
-def _radius_of_sphere(start: AtDepth | AtForce, case: dict[str, Any]) -> float | None:
-    """Return the radius of a sphere's contact on a half-space, None past the end of its branch."""
-    if isinstance(start, AtDepth):
-        if start.depth < np.asarray(jkr.instability(**case).depth) * (1 + ROUND_OFF):
-            return None
-        return float(np.asarray(jkr.contact_radius_at_depth(start.depth, **case)))
-    if start.force < np.asarray(jkr.pull_off(**case).force) * (1 + ROUND_OFF):
-        return None
-    return float(np.asarray(jkr.contact_radius_at_force(start.force, **case)))
 
 
 def _radii(shape: Shape, body: Body, length: float) -> Array:

@@ -218,7 +218,8 @@ def film_stresses(half_length: float, *, half_width: float, decay: float) -> tup
     larger, smaller = (_film_force(c * a, c * b, decay) for c in (1 + step, 1 - step))
     exponent = np.log(larger / smaller) / np.log((1 + step) / (1 - step))
     k, q = _rows(b, decay)
-    slope = _tanh_over(decay, b) - float(np.sum(2 / (b * q**2 * np.cosh(np.minimum(q * a, 300)))))
+    whole = float(np.tanh(decay * b) / decay) if decay > 0 else b
+    slope = whole - float(np.sum(2 / (b * q**2 * np.cosh(np.minimum(q * a, 300)))))
     return T / slope / (4 * a * b), float(np.sqrt(8 * a * b * T / exponent)) / (4 * a * b)
 
 
@@ -232,10 +233,6 @@ def _rows(b: float, decay: float) -> tuple[Array, Array]:
     """Return wave numbers across the width, and the decay of their terms along it."""
     k = np.arange(0.5, _TERMS) * np.pi / b
     return k, np.sqrt(k**2 + decay**2)
-
-
-def _tanh_over(decay: float, b: float) -> float:
-    return float(np.tanh(decay * b) / decay) if decay > 0 else b
 
 
 def _disc_of_film(b: float, decay: float) -> float:

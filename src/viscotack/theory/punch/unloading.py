@@ -216,7 +216,11 @@ def _at_thickness(speed: Any, b: float, pad: Pad, law: CrackLaw) -> Any:
         stress = min(pad.strength, elastic)
         state = stress, -v0 * stress / elastic, a, np.inf, min(1.0, largest)
         return np.repeat(np.array(state)[:, None], speed.size, axis=1)
-    crack, gamma = _motion(speed * a / v0, largest, law)
+    # from the drives r a/v0
+    low = np.log10(_SLOWEST * np.min(speed * a / v0))
+    high = np.log10(_FASTEST * np.max(speed * a / v0))
+    crack = np.logspace(low, high, round(_PER_DECADE * (high - low)) + 1)
+    gamma = np.asarray(amplification(crack, law, largest=largest))
     u = np.sqrt(gamma)
     steps = (crack[1:] + crack[:-1]) / 2 * np.diff(u)
     lost = np.append(0.0, np.cumsum(steps)) * v0 / a
@@ -261,13 +265,6 @@ def _at(t: Any, values: Any) -> Any:
     """Return the parabola through values at -1, 0 and 1."""
     before, middle, after = values.T
     return middle + t * (after - before) / 2 + t**2 * (before - 2 * middle + after) / 2
-
-
-def _motion(drive: Any, largest: float, law: CrackLaw) -> tuple[Any, Any]:
-    """Return the crack speeds [m/s] of the drives r a/v0, and their amplifications."""
-    low, high = np.log10([_SLOWEST * np.min(drive), _FASTEST * np.max(drive)])
-    crack = np.logspace(low, high, round(_PER_DECADE * (high - low)) + 1)
-    return crack, np.asarray(amplification(crack, law, largest=largest))
 
 
 def largest_amplification(thickness: Values, pad: Pad) -> Number:

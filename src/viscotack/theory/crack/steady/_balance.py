@@ -234,7 +234,7 @@ def elastic(traction: Traction, mesh: Mesh) -> Solution:
     """
     decay = effective_range(traction) / effective_range(Exponential(1.0, 1.0, 1.0))
     known = pinned(Exponential(1.0, 1.0, decay))
-    opening = _identity(mesh)
+    opening = np.concatenate([np.eye(mesh.x.size), mesh.far[:, None]], axis=1)
     found = solved(System(mesh, known, opening), _guess(mesh, known))
     for law in (pinned(stage) for stage in _stages(traction)):
         done, part = 0.0, _FIRST_PART
@@ -274,7 +274,3 @@ def _guess(mesh: Mesh, law: Law) -> Array:
     imaginary = width / (2 * real)
     z = mesh.x + real**2 - imaginary**2 + 1j * width
     return np.append(_AMPLITUDE * (np.real(np.sqrt(z)) - mesh.far), _AMPLITUDE)
-
-
-def _identity(mesh: Mesh) -> Array:
-    return np.concatenate([np.eye(mesh.x.size), mesh.far[:, None]], axis=1)
