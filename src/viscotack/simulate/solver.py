@@ -205,7 +205,16 @@ def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed
 
 def contact_of(groups: Groups) -> Contact:
     """Return the contact described by dimensionless groups, with the quasi-static law."""
-    law = _base(groups.traction)
+    law: Any = groups.traction
+    if has_rest(law):
+        # opening speeds and contact times are known only at the nodes
+        word, law = law.word, law.base
+        if not resolved(law):
+            raise InputError(
+                f"the law at rest of one of the kind {word} must be smooth enough "
+                f"for nodes, and {law} falls too steeply; take a wider fall (dugdale: rise 0.3, "
+                "fall 1), or lennard-jones"
+            )
     if isinstance(groups.geometry, FlatPunch):
         return PunchContact(groups.geometry.half_width, groups.body, law)
     low, high = SIMULATED_TABOR
@@ -227,20 +236,6 @@ def contact_of(groups: Groups) -> Contact:
             return DiscContact(groups.tabor, law, disc, body=body)
         case shape, body:
             return ShapeContact(groups.tabor, law, shape, body=body)
-
-
-def _base(law: Any) -> Any:
-    """Return the law at rest; reject laws that grow or age and are too steep for the nodes.
-
-    They are evaluated at the nodes because opening speeds and contact times are known only there.
-    """
-    if has_rest(law) and not resolved(law.base):
-        raise InputError(
-            f"the law at rest of one of the kind {law.word} must be smooth enough for nodes, and "
-            f"{law.base} falls too steeply; take a wider fall (dugdale: rise 0.3, fall 1), or "
-            "lennard-jones"
-        )
-    return law.base if has_rest(law) else law
 
 
 def modes_of_run(
@@ -287,6 +282,13 @@ def _result(
     if not np.isinf(detail(groups.geometry)):  # the contact may have several edges
         parts["inner_radius"] = history.seen("hole") / contact.edge_unit
         parts["rings"] = history.seen("rings")
+    profiles = None
+    if fields:  # padded with nan to the largest mesh
+        whole = np.full((3, len(time), max(len(p.gap) for p in history.profiles)), np.nan)
+        for i, p in enumerate(history.profiles):
+            position = p.position / contact.edge_unit
+            whole[:, i, : len(p.gap)] = position, p.gap, p.pressure
+        profiles = {"time": time} | dict(zip(("radius", "gap", "pressure"), whole, strict=True))
     return Result(
         problem=problem,
         time=time,
@@ -305,25 +307,10 @@ def _result(
             mode_weight=np.array(modes.weights),
         ),
         energy_residual=residual,
-        fields=_fields(history, contact, time) if fields else None,
+        fields=profiles,
         move=np.array(history.legs),
         **parts,
     )
-
-
-def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the profiles, padded with nan to the largest mesh; radius in the output unit."""
-    longest = max(len(p.gap) for p in history.profiles)
-
-    def padded(values: np.ndarray) -> np.ndarray:
-        return np.concatenate([values, np.full(longest - len(values), np.nan)])
-
-    return {
-        "time": time,
-        "radius": np.array([padded(p.position / contact.edge_unit) for p in history.profiles]),
-        "gap": np.array([padded(p.gap) for p in history.profiles]),
-        "pressure": np.array([padded(p.pressure) for p in history.profiles]),
-    }
 
 
 _UNTIL = ("pull-off", "detached")

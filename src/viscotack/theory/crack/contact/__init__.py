@@ -12,7 +12,7 @@ from ._profile import (
     radius_at_depth,
     radius_at_force,
 )
-from .growing import GrowingCracks, GrowingEdges, NeighbourEdges
+from .growing import GrowingCracks, NeighbourEdges
 from .history import Contact, Curve, Drive, Edge
 from .recession import Curves, recede
 from .series import Elastic, Pulled, Receding, Scales, pull_apart
@@ -25,7 +25,6 @@ __all__ = [
     "Edge",
     "Elastic",
     "GrowingCracks",
-    "GrowingEdges",
     "NeighbourEdges",
     "Profile",
     "Pulled",
