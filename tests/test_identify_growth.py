@@ -115,17 +115,3 @@ def test_cracks_of_an_interface_that_grows_are_kept_for_the_forecast(monkeypatch
     assert pulled(1e-5) == first
     # at a speed that was not computed, from the same cracks
     assert pulled(1e-4) > 1.1 * first
-
-
-def test_growth_is_an_option_of_the_operation(monkeypatch):
-    asked = []
-
-    def series(tests, **options):
-        asked.append(options["growth"])
-        raise vt.InputError("enough")
-
-    monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", series)
-    for growth in (True, False):
-        with pytest.raises(vt.InputError, match="enough"):
-            vt.ask("identify rates", files=LENS, material="pdms-10-1", radius="5 mm", growth=growth)
-    assert asked == [True, False]

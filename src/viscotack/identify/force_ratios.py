@@ -176,11 +176,9 @@ def yielding_near(tests: SphereTests, interface: Interface) -> tuple[ForceRatios
     middle, changed = log_ratio(work, gap)
     slopes = np.zeros((2, speed.size))
     if np.max(np.abs(middle)) > _FAR:
-        beside = (
-            (log_ratio(work * np.exp(_WORK), gap), _WORK),
-            (log_ratio(work, gap * np.exp(_GAP)), _GAP),
-        )
-        for row, ((other, there), step) in zip(slopes, beside, strict=True):
+        beside = (work * np.exp(_WORK), gap), (work, gap * np.exp(_GAP))
+        for row, at, step in zip(slopes, beside, (_WORK, _GAP), strict=True):
+            other, there = log_ratio(*at)
             row[there.holds] = (other - middle)[there.holds] / step
     told = [i for i in np.argsort(speed) if changed.holds[i]]
     if told:

@@ -194,11 +194,6 @@ class Chance:
     low: float
     high: float
 
-    @property
-    def reverse(self) -> Chance:
-        """Probability of the opposite."""
-        return Chance(1 - self.value, 1 - self.high, 1 - self.low)
-
 
 def opening_chance(
     first: Problem, second: Problem, *, works: tuple[float, float], preload: float = 0.0
@@ -478,7 +473,7 @@ def window(
         for i, speed in enumerate(V):
             answers = {name: each[i] for name, each in found.items()}
             pick, keep = (chance(name, preload, speed) for name in (DONOR, RECEIVER))
-            prints = None if keep is None else keep.reverse
+            prints = keep and Chance(1 - keep.value, 1 - keep.high, 1 - keep.low)
             both = answers.get(DONOR), answers.get(RECEIVER)
             rows.append(Cell(speed, preload, *both, pick, prints))
         if progress is not None:
