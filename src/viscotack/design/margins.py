@@ -288,7 +288,7 @@ def solid_limits(fast: FastTier, space: DesignSpace, targets: Targets) -> tuple[
     moduli = [None] if space.modulus is None else [space.modulus.low, space.modulus.top]
     radii = np.geomspace(space.radius.low, space.radius.top, _RADII).tolist()
     reached = {"hold": [(-inf, "")], "release": [(inf, "")], "ratio": [(-inf, "")]}
-    sizes: list[tuple[float, float | None]] = list(product(radii, moduli))
+    sizes = [(R, modulus) for R in radii for modulus in moduli]
     for name, (R, modulus) in product(fast.materials, sizes):
         many = space.most_pads(R)
         if not many:
