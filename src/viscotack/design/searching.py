@@ -78,6 +78,14 @@ def search(
         return space.choice(material, only)
 
     ends = space.ends()
+    # begin fast to hold, slow to release, and in the middle of other ranges; just inside, because
+    # SciPy rejects ends that round-off moves out
+    share = {"hold_speed": 0.999, "release_speed": 0.001}
+    begin = [
+        low + share.get(name, 0.5) * (high - low)
+        for name, (low, high) in zip(space.free, ends, strict=True)
+    ]
+    whole = [name == "pads" for name in space.free]
     # the name that every supported version of scipy knows; the checker knows the newest only
     generator: dict[str, Any] = {"seed": seed}
     members, most = effort.of(len(ends))
@@ -85,8 +93,8 @@ def search(
     found = scipy.optimize.differential_evolution(
         cost,
         ends,
-        integrality=[name == "pads" for name in space.free],
-        x0=_likely(space, ends),
+        integrality=whole,
+        x0=np.where(whole, np.round(begin), begin),
         popsize=members,
         maxiter=most,
         tol=0,
@@ -97,19 +105,6 @@ def search(
         callback=lambda x, convergence: tell(next(generations) / (most + 1)),
     )
     return space.choice(material, np.asarray(found.x))
-
-
-def _likely(space: DesignSpace, ends: list[tuple[float, float]]) -> Array:
-    """Return where to begin: fast to hold, slow to release, and the middle of other ranges."""
-    # just inside, because SciPy rejects ends that round-off moves out
-    share = {"hold_speed": 0.999, "release_speed": 0.001}
-    places = [
-        low + share.get(name, 0.5) * (high - low)
-        for name, (low, high) in zip(space.free, ends, strict=True)
-    ]
-    return np.array(
-        [round(x) if n == "pads" else x for n, x in zip(space.free, places, strict=True)]
-    )
 
 
 def nondominated(values: Array) -> npt.NDArray[np.bool_]:
