@@ -126,8 +126,8 @@ if TYPE_CHECKING:
     from viscotack.result.observables import work_of_separation as work_of_separation
     from viscotack.result.observables import work_to_pull_off as work_to_pull_off
     from viscotack.simulate import SimulationError as SimulationError
-    from viscotack.simulate.crack_contact import CrackContact as CrackContact
-    from viscotack.simulate.crack_contact import crack_contact as crack_contact
+    from viscotack.simulate.crack_contact.by_crack import CrackContact as CrackContact
+    from viscotack.simulate.crack_contact.by_crack import crack_contact as crack_contact
     from viscotack.simulate.solver import solve as solve
     from viscotack.units import parse as parse
 
@@ -163,7 +163,7 @@ _NAMES = {
     "model.problem.case_file": "read_case to_dict from_dict run_id",
     "simulate": "SimulationError",
     "simulate.solver": "solve",
-    "simulate.crack_contact": "crack_contact CrackContact",
+    "simulate.crack_contact.by_crack": "crack_contact CrackContact",
     "result": "Result Energies Event Outcome save load columns write_csv",
     "result.observables": (
         "Observable PullOff pull_off peaks pull_off_force depth_at_pull_off "

@@ -12,7 +12,7 @@ from viscotack.result import load, save
 from viscotack.result.cycles import Loop, cycle_rows, cycles
 from viscotack.result.observables import work_to_pull_off
 from viscotack.simulate import solve
-from viscotack.simulate.crack_contact import crack_contact
+from viscotack.simulate.crack_contact.by_crack import crack_contact
 
 pytestmark = pytest.mark.march
 

@@ -22,8 +22,7 @@ from viscotack.model.problem import Problem
 from viscotack.model.protocol import Apart, AtForce, Move, Retraction
 from viscotack.model.traction import GentSchultz, LennardJones
 from viscotack.model.traction.growing import reference_speed
-from viscotack.simulate.crack_contact import CrackContact, crack_contact
-from viscotack.simulate.crack_contact.by_crack import crack_contacts
+from viscotack.simulate.crack_contact.by_crack import CrackContact, crack_contact, crack_contacts
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
 from viscotack.theory.crack.contact import (
     Curves,

@@ -9,7 +9,7 @@ from viscotack.model.geometry import Sphere
 from viscotack.model.materials import Elastic
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
-from viscotack.simulate.crack_contact.by_crack import too_short
+from viscotack.simulate.crack_contact import too_short
 from viscotack.simulate.crack_contact.crack_problem import ROOT
 from viscotack.units import readable
 

@@ -37,7 +37,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.model.protocol import AtDepth, AtForce, Retraction
 from viscotack.result.observables import pull_off
 from viscotack.simulate import solve
-from viscotack.simulate.crack_contact import crack_contact
+from viscotack.simulate.crack_contact.by_crack import crack_contact
 from viscotack.simulate.in_series import CRACKS, SIMULATION
 
 # Most points of the curve of several pads, besides the ends of theirs.

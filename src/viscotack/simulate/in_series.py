@@ -20,6 +20,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Sphere
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.traction import LennardJones, has_rest
+from viscotack.simulate.crack_contact import not_covered
 from viscotack.simulate.crack_contact.by_crack import (
     LEAST_TABOR,
     band_parts,
@@ -28,7 +29,7 @@ from viscotack.simulate.crack_contact.by_crack import (
     tension_left,
     too_large_zone,
 )
-from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
+from viscotack.simulate.crack_contact.crack_problem import start_of
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import Elastic, Pulled, Receding, Scales, profile_of, pull_apart
 from viscotack.theory.elastic.relaxed import contact_in_groups

@@ -38,8 +38,7 @@ from viscotack.simulate.contacts.contact import Contact, Relaxed
 from viscotack.simulate.contacts.punch import PunchContact
 from viscotack.simulate.contacts.shape import DiscContact, ShapeContact
 from viscotack.simulate.contacts.sphere import ProfileContact, SphereContact
-from viscotack.simulate.crack_contact.by_crack import METHOD, crack_contact, too_short
-from viscotack.simulate.crack_contact.crack_problem import not_covered, start_of
+from viscotack.simulate.crack_contact import not_covered, too_short
 from viscotack.simulate.estimate import COARSER, estimated
 from viscotack.simulate.growth import finer
 from viscotack.simulate.history import History, Snapshot
@@ -50,7 +49,6 @@ from viscotack.simulate.sensitivities import changed_inputs, sensitivities_of
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.surface import resolved
 from viscotack.simulate.verdict import judged, out_of_time, status_of
-from viscotack.theory.crack.contact import profile_of
 from viscotack.threads import one_blas_thread
 
 # Called with the completed fraction of the work, 0 to 1.
@@ -491,7 +489,7 @@ def has_start(problem: Case) -> bool:
         try:
             groups = problem.groups()
             if too_short(groups):
-                start_of(groups, profile_of(groups.geometry))
+                _start_of_crack(groups)
             else:
                 begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
         except InputError:
@@ -507,9 +505,16 @@ def _too_short(groups: Groups, settings: Settings) -> bool:
         return False
     spacing = contact_of(groups).grading(settings, 0.0).spacing
     try:
-        return spacing < _DIGITS * start_of(groups, profile_of(groups.geometry))[1]
+        return spacing < _DIGITS * _start_of_crack(groups)[1]
     except InputError:  # no such contact by JKR, whose range of contacts is a little smaller
         return False
+
+
+def _start_of_crack(groups: Groups) -> tuple[float, float]:
+    from viscotack.simulate.crack_contact.crack_problem import start_of
+    from viscotack.theory.crack.contact import profile_of
+
+    return start_of(groups, profile_of(groups.geometry))
 
 
 def _by_cracks(problem: Problem | Groups, accuracy: float) -> Result:
@@ -517,6 +522,9 @@ def _by_cracks(problem: Problem | Groups, accuracy: float) -> Result:
 
     Energies are not available; the error of the force is the band.
     """
+    # only here: most simulations do without steady cracks
+    from viscotack.simulate.crack_contact.by_crack import METHOD, crack_contact
+
     began = perf_counter()
     found = crack_contact(problem)
     outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT

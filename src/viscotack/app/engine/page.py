@@ -38,7 +38,7 @@ from viscotack.prediction.prediction import Prediction
 from viscotack.prediction.theories import crack_of, forms_of
 from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import AT_ONCE, CLOSED_FORMS, CRACK, SOON, best
-from viscotack.simulate.crack_contact import CrackContact
+from viscotack.simulate.crack_contact.by_crack import CrackContact
 from viscotack.theory.elastic import relaxed
 from viscotack.units import readable_interval
 from viscotack.version import __version__

@@ -25,7 +25,7 @@ from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, LoadTo, Re
 from viscotack.model.traction import at_rest, grows
 from viscotack.result import Outcome
 from viscotack.simulate import solve
-from viscotack.simulate.crack_contact import crack_contact
+from viscotack.simulate.crack_contact.by_crack import crack_contact
 
 from .pulling import ArrayPull, PadArray, pull_array, shared_compliance
 

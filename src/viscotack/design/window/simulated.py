@@ -24,7 +24,7 @@ from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.model.protocol import AtForce, Retraction
 from viscotack.simulate.bounds import check_bounds
 from viscotack.simulate.contacts.contact import Contact, Relaxed
-from viscotack.simulate.crack_contact.by_crack import too_short
+from viscotack.simulate.crack_contact import too_short
 from viscotack.simulate.history import History
 from viscotack.simulate.machine import Leg
 from viscotack.simulate.march import Part

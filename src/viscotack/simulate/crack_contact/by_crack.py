@@ -32,19 +32,18 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Sphere
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.problem.accuracy import outside
-from viscotack.model.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.model.protocol import Apart, Approach, Dwell, LoadTo, Retract
 from viscotack.model.traction import LennardJones, grows
 from viscotack.result.curve import shares
 from viscotack.result.cycles import Loop, returned, work_at_indenter
 from viscotack.result.opening import least_between
 from viscotack.result.parts import all_moves, spans_of, waits
+from viscotack.simulate.crack_contact import LARGEST_TABOR
 from viscotack.simulate.crack_contact.crack_problem import (
     LOAD,
     ROOT,
     drives_of,
     groups_of,
-    not_covered,
     start_of,
 )
 from viscotack.theory import SteadyCrack, lennard_jones
@@ -170,8 +169,6 @@ def not_measured(groups: Groups) -> str:
 METHOD = "crack contact"
 # Smallest accepted effective Tabor number, range-corrected and with the amplification.
 LEAST_TABOR = 2.0
-# Largest accepted one: beyond it zone and contact lengths differ by more than double precision.
-LARGEST_TABOR = 1e9
 # Smallest travel of the edge to pull-off [zone lengths], required if the amplification is above
 # _SLOW: with less travel the crack is not steady.
 LEAST_ZONES, _SLOW = 1.5, 1.1
@@ -410,14 +407,6 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
         except InputError as error:
             answers.append(error)
     return answers
-
-
-def too_short(groups: Groups) -> bool:
-    """Whether the model replaces the simulation because the range of the forces is too short."""
-    if not_covered(groups):
-        return False
-    least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
-    return least < groups.effective_tabor <= LARGEST_TABOR
 
 
 def _check_tabor(groups: Groups) -> None:

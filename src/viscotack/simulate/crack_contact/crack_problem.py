@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import OutOfRange
-from viscotack.model.geometry import HalfSpace, detail
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.protocol import (
     Apart,
@@ -25,6 +24,7 @@ from viscotack.model.protocol import (
     Retract,
     end_of,
 )
+from viscotack.simulate.crack_contact import not_covered
 from viscotack.theory import lennard_jones
 from viscotack.theory.crack.contact import Drive, Profile, radius_at_depth, radius_at_force
 
@@ -44,20 +44,6 @@ def groups_of(problem: Any) -> Groups:
         cure = "" if groups.in_plane_strain else "; use `viscotack simulate`"
         raise OutOfRange(f"the steady-crack contact model covers {reason}{cure}")
     return groups
-
-
-def not_covered(groups: Groups) -> str:
-    """Return why the model does not cover a problem; "" for one edge on a half-space."""
-    if groups.in_plane_strain:
-        return (
-            "shapes of revolution, got a flat punch on a layer; use theory.punch.pull_off "
-            "(relaxed bulk) or `viscotack simulate`"
-        )
-    if not isinstance(groups.body, HalfSpace):
-        return f"a half-space, got a {groups.body.word}"
-    if np.isfinite(detail(groups.geometry)):
-        return f"only shapes that rise ever more steeply from the tip, got a {groups.geometry.word}"
-    return ""
 
 
 def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
