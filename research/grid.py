@@ -4,6 +4,7 @@ python -m research.grid spheres           # forces, works and processor time of 
 python -m research.grid trust --seed 1    # stated errors of drawn spheres
 python -m research.grid rough --seed 1    # and of drawn rough maps
 python -m research.grid size              # time and memory by the number of pixels
+python -m research.grid speeds --pixels 1024   # docs/rough_speed.png: pull-off and loss by speed
 """
 
 import argparse
@@ -19,6 +20,7 @@ from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded, HalfSpace, Layer
 from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, Retraction
 from viscotack.model.surfaces import self_affine, sphere
+from viscotack.plot.style import drawing, save_figure
 from viscotack.result.observables import work_of_separation
 from viscotack.simulate.rough import RoughProblem, pull
 
@@ -249,7 +251,41 @@ def of_size(side):
     return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
 
 
-PARTS = (spheres, trust, rough, size)
+def speeds(given):
+    """Draw pull-off stress and dissipation of whole cycles of a map by their speed."""
+    side, height = given.pixels, 6e-6
+    surface = self_affine(
+        side, 5e-6, hurst=0.8, rms_height=height, seed=4, roll_off=2.56e-3, shortest=40e-6
+    )
+    problem = of_size(64)
+    law, area = problem.traction, surface.area
+    rows = []
+    print("speed     pull-off stress  dissipated per area  largest contact  steps  CPU s")
+    for speed in np.geomspace(1e-6, 1e-2, 5):
+        press = Approach(speed=float(speed), to=AtForce(0.1 * law.strength * area))
+        test = Retraction(start=Apart(5 * height), moves=(press,), speed=float(speed))
+        began = process_time()
+        found = pull(replace(problem, surface=surface, protocol=test), estimate_error=False)
+        lost = (found.heat[-1] + found.jumps[-1]) / area
+        rows.append((speed, found.pull_off_stress, lost, found.area.max() / area))
+        print(
+            f"{speed:.0e} {found.pull_off_stress:10.1f} Pa {1e3 * lost:12.4f} mJ/m2 "
+            f"{rows[-1][3]:16.1%} {found.statistics['steps']:10.0f} {process_time() - began:6.0f}",
+            flush=True,
+        )
+    with drawing(6.4, 3.2) as figure:
+        left, right = figure.subplots(1, 2)
+        for axes, column, factor, word in (
+            (left, 1, 1e-3, "pull-off stress [kPa]"),
+            (right, 2, 1e3, "dissipated in a cycle [mJ/m²]"),
+        ):
+            axes.loglog([row[0] for row in rows], [factor * row[column] for row in rows], "o-")
+            axes.set_xlabel("speed [m/s]")
+            axes.set_ylabel(word)
+        save_figure(figure, "docs/rough_speed.png")
+
+
+PARTS = (spheres, trust, rough, size, speeds)
 
 
 def main():
