@@ -138,5 +138,5 @@ def test_what_does_not_belong_together_is_not_merged(tmp_path, monkeypatch):
     run(plan, tmp_path / "newer", work=stand_in, executor=Inline())
     with pytest.raises(InputError, match="another program"):
         merge([one, tmp_path / "newer"], tmp_path / "m")
-    with pytest.raises(InputError, match="another --out"):
+    with pytest.raises(InputError, match="another `out`"):
         merge([one], one)

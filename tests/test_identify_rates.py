@@ -63,7 +63,7 @@ def test_a_caution_says_where_approach_and_dwell_change_the_force(fit, dwell, re
     tests = [replace(one, history=past) for one in fit.series]
     series = replace(fit.given, tests=tests, theory=0.003)
     told = replace(fit, search=replace(fit.search, series=series)).words
-    assert any("--history" in one for one in told) is not relaxed
+    assert any("`history`" in one for one in told) is not relaxed
 
 
 def test_the_effect_of_a_machine_follows_powers_of_work_and_range():

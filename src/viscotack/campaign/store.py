@@ -314,7 +314,7 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
     are_shards = len(counts) == 1 and counts != {""}
     with locked(out), _created(out) as db:
         if _facts(db):
-            raise InputError(f"{out} holds a campaign already; give another --out")
+            raise InputError(f"{out} holds a campaign already; give another `out`")
         facts = json.dumps(first.facts | {"shard": None})
         db.execute("INSERT INTO plan VALUES (?)", (facts,))
         for store in stores:
@@ -391,7 +391,7 @@ def locked(folder: Path) -> Iterator[None]:
         runs = Store(folder).runs() if (folder / "study.db").exists() else []
         by = f", process {runs[-1]['process']} on {runs[-1]['host']}" if runs else ""
         raise FolderInUse(
-            f"{folder} is in use by another run{by}; wait for it, or give another --out"
+            f"{folder} is in use by another run{by}; wait for it, or give another `out`"
         ) from None
     try:
         yield
@@ -406,7 +406,7 @@ def _check_same(one: Any, first: Mapping[str, Any], other: Any, second: Mapping[
         if was != now:
             told = "" if name in ("problem", "own") else f": {was}, and {now}"
             raise InputError(
-                f"{one} and {other} have not the same {name}{told}; give another --out, or the same"
+                f"{one} and {other} have not the same {name}{told}; give another `out`, or the same"
             )
 
 

@@ -130,11 +130,11 @@ def _of_misfit(fit: SeriesFit) -> Iterator[str]:
         cure = "no interface explains them; the material or the thickness may be wrong"
     else:
         cure = (
-            "no interface of a linear solid explains them; --growth fits one that grows with "
+            "no interface of a linear solid explains them; `growth` fits one that grows with "
             "speed, `viscotack identify edge` the plain edge law, or the material may be wrong"
         )
     if not fit.trend:
-        cure += ", or tests at one speed scatter by as much, which --scatter states"
+        cure += ", or tests at one speed scatter by as much, which `scatter` states"
     yield (
         f"the fit does not describe these tests: measured forces differ from fitted ones by "
         f"{tests}, {fit.scatter:.2g} times the uncertainty of tests and theory; {cure}"
@@ -220,7 +220,7 @@ def _of_relaxation(fit: RateSeriesFit) -> Iterator[str]:
         )
         if holds and abs(ratio - 1) > given.theory_error
     ]
-    cure = "" if given.curves or given.growth else "; with --history the forces include them"
+    cure = "" if given.curves or given.growth else "; with `history` the forces include them"
     taken = "the contacts are taken as relaxed, but"
     shortest, material = min(dwells.values()), fit.forward.material
     left = float(material.relaxation(shortest)) / material.rubbery_modulus - 1

@@ -72,7 +72,7 @@ def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str
     if passport is not None and allowed(passport):
         found.append(
             "The interval leaves out the uncertainty of the measured constants of "
-            f"{passport.name!r}; for a problem in SI, `viscotack uncertainty` with --passport "
+            f"{passport.name!r}; for a problem in SI, `viscotack uncertainty` with the passport "
             "includes it."
         )
     in_si = isinstance(problem, Problem)

@@ -29,7 +29,7 @@ from .tier import (
 # Time budgets [s]: surrogates alone; surrogates and theories, the default.
 AT_ONCE, SOON = 0.01, 1.0
 _SIMULATE = (
-    "`viscotack simulate`, or `predict` with --exact, can compute it, mostly in 0.1 to 3 s and "
+    "a simulation can compute it (`exact`, or `viscotack simulate`), mostly in 0.1 to 3 s and "
     "above a Tabor number of 30 in up to a minute"
 )
 

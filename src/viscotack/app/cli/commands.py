@@ -5,7 +5,6 @@ file could not be written; 3 a defect of viscotack; 130 interrupted by ctrl-C.
 With --json exactly one object is written to standard output, everything else to standard error.
 """
 
-import re
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -124,21 +123,12 @@ def study_command(
 
 def _spelled(error: InputError, kind: "type[Request] | None") -> str:
     """Return the message of an error, with the field that it names as the flag."""
+    from viscotack.app.operations.flags import spelled
+
     words, name = str(error), error.field
     if name and words.startswith(name):
         words = f"`{name}`{words.removeprefix(name)}"
-    return re.sub(r"`(\w+)`", lambda x: _flag(x[1], kind), words)
-
-
-def _flag(name: str, kind: "type[Request] | None") -> str:
-    """Return a name as the command line spells it, if it is an option."""
-    from viscotack.app.operations.flags import FLAGS
-    from viscotack.app.operations.options import flag_of, option_of
-
-    if kind is not None and name in kind.model_fields:
-        option = option_of(kind.model_fields[name])
-        return name if option.argument else flag_of(name, option)
-    return f"--{name.replace('_', '-')}" if kind is not None and name in FLAGS else name
+    return spelled(words, kind)
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:

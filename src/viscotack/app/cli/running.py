@@ -15,6 +15,7 @@ from typing import Any
 
 import typer
 
+from viscotack.app.operations.flags import spelled
 from viscotack.app.operations.options import Output
 from viscotack.app.operations.request import Answer, Caller, Request, answered
 from viscotack.errors import InputError
@@ -75,7 +76,11 @@ def checked(
 
 
 def finish(
-    answer: Answer, files: Mapping[Output, Path | None], as_json: bool, read: Sequence[Path] = ()
+    answer: Answer,
+    files: Mapping[Output, Path | None],
+    as_json: bool,
+    read: Sequence[Path],
+    kind: type[Request],
 ) -> None:
     """Write the files of an answer, print it, and exit with its status.
 
@@ -109,8 +114,11 @@ def finish(
             if not to_output:
                 typer.echo(f"wrote {file}", err=True)
     for note in answer.notes:
-        typer.echo(harmless(note), err=True)
-    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)
+        typer.echo(harmless(spelled(note, kind)), err=True)
+    if as_json:
+        text = json.dumps(answer.record(), indent=2, allow_nan=False)
+    else:
+        text = spelled(str(answer), kind)
     try:
         if text:
             typer.echo(harmless(text), err=is_taken)
@@ -166,7 +174,7 @@ def carry_out(
         caller = Caller(tell, wants, own_nouns(own), paths, study.parent if study else Path())
         caller.read.extend([*map(Path, paths), *([study] if study else [])])
         answer = answered(asked, caller)
-    finish(answer, files, as_json, caller.read)
+    finish(answer, files, as_json, caller.read, type(asked))
 
 
 @contextmanager

@@ -10,11 +10,14 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from .options import INDENTERS, quoted
+from .options import INDENTERS, flag_of, option_of, quoted
+
+if TYPE_CHECKING:
+    from .request import Request
 
 ROUND = ("sphere", "profile", "disc")
 _PUNCH = ("punch",)
@@ -326,3 +329,22 @@ def _text(said: Mapping[str, Any], name: str, usual: str) -> str:
     if not isinstance(value, str | os.PathLike):
         raise InputError(f"{name} must be text, got {value!r:.60}", field=name)
     return os.fspath(value)
+
+
+def spelled(words: str, kind: "type[Request] | None") -> str:
+    """Return a text with the options that it quotes as the command line spells them.
+
+    Examples
+    --------
+    >>> from viscotack.app.operations.forecast import NextTest
+    >>> spelled("the wanted forecast needs its speed, `forecast_speed`", NextTest)
+    'the wanted forecast needs its speed, --forecast-speed'
+    """
+
+    def flag(name: str) -> str:
+        if kind is not None and name in kind.model_fields:
+            option = option_of(kind.model_fields[name])
+            return name if option.argument else flag_of(name, option)
+        return f"--{name.replace('_', '-')}" if kind is not None and name in FLAGS else name
+
+    return re.sub(r"`(\w+)`", lambda found: flag(found[1]), words)

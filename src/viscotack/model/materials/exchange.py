@@ -1,4 +1,4 @@
-r"""Prony series as input of other programs, written and, of Abaqus and Ansys, read.
+r"""Prony series for other programs; for Abaqus and Ansys also shift laws, and readers.
 
 The conventions differ in three points:
 
@@ -253,8 +253,8 @@ def imported(text: str, code: str, *, units: Units | None = None) -> Prony:
         stated = _COMMENT.search(text)
         if stated is None:
             raise InputError(
-                "the text does not state its units; give them (units=Units('MPa', 's'), or on the "
-                "command line --pressure-unit and --time-unit)"
+                "the text does not state its units; give `pressure_unit` and `time_unit`, in "
+                "Python units=Units('MPa', 's')"
             )
         units = Units(*stated.groups())
     deck = _READERS[code](text)

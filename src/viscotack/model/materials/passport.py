@@ -168,7 +168,7 @@ class Passport:
             raise InputError(
                 f"{self.name or 'the material'} has no rubbery plateau ({self.liquid.split('.')[0]}"
                 f"): {what}. If it is a solid, measure at lower frequencies or state "
-                "--rubbery-modulus in `viscotack material fit`"
+                "`rubbery_modulus` in `viscotack material fit`"
             )
 
     def shift_factor(self, temperature: float) -> float:
