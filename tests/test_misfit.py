@@ -35,6 +35,7 @@ def test_a_forecast_from_tests_that_no_linear_solid_explains_holds_them(tmp_path
     assert exit_status(["identify", "rates", *map(str, GROWING), *line, "-o", study]) == 0
     first = capsys.readouterr().out.splitlines()[0]
     assert "--growth" in first
+    first = first.replace("--growth", "`growth`")
     speeds = [x for v in (*MEASURED, *TRUE) for x in ("--speed", f"{v!r} m/s")]
     assert exit_status(["forecast", study, *speeds, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
