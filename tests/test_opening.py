@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from viscotack.model.protocol import AtDepth, LoadTo, Retract
+from viscotack.model.protocol import AtDepth, Retract
 from viscotack.result import observables, opening
 
-MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)
+MOVED = Retract(1.0, AtDepth(-9.0))
 
 
 @pytest.mark.parametrize(("lower", "equal"), [(4.0, True), (3.0, True), (2.9, False)])

@@ -317,7 +317,7 @@ class CreepTest(_StepTest):
     source: Source = Source()
 
 
-# ---- validated, read-only columns ----------------------------------------------------------------
+# ---- text of temperatures; validated, read-only columns ------------------------------------------
 
 
 def celsius(kelvin: float) -> str:
@@ -341,7 +341,9 @@ def store(instance: Any, name: str, row: npt.NDArray[Any]) -> None:
     object.__setattr__(instance, name, row)
 
 
-# K least difference between two sweeps; chambers hold the temperature within a few tenths
+# ---- sweeps by temperature, and of several files -------------------------------------------------
+
+# K: least difference between two sweeps; chambers hold the temperature within a few tenths
 GAP = 1.0
 # K: sweeps closer than this must agree; a ramp may pass through neighbouring temperatures
 _ONE_TEMPERATURE = 0.3

@@ -38,8 +38,8 @@ from viscotack.theory.elastic.relaxed import contact_in_groups
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9
-# Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
-_DMT, _JKR = 0.1, 3.0
+# Least Tabor number of JKR in Johnson and Greenwood's map without load, Lennard-Jones form.
+_JKR = 3.0
 # Fractions of the force between slowest and fastest that still count as the limit itself.
 _SLOW, _FAST = 0.02, 0.9
 # Retraction in the mean retardation time, in contact heights, up to which the bulk is (nearly)

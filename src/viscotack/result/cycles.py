@@ -36,7 +36,7 @@ _SMALL = 0.02
 
 
 class Loop(StrEnum):
-    """State in which the loop of a cycle closed, see :func:`.cycles.cycles`."""
+    """State in which the loop of a cycle closed, see :func:`cycles`."""
 
     APART = "apart"
     """The surfaces are apart at its beginning and at its end."""
@@ -231,7 +231,7 @@ def cycle_rows(result: Result) -> list[dict[str, float | str | None]]:
     """Return the cycles as rows with the names and units of the geometry, and in SI if possible.
 
     Names and signs are those of :mod:`viscotack.model.problem.outputs`; undefined numbers are None.
-    `loop` is one of the values of :class:`.cycles.Loop`.
+    `loop` is one of the values of :class:`Loop`.
     """
     outputs, scales = result.problem.outputs.cycles, result.scales
     rows = []

@@ -141,8 +141,7 @@ def _side(problem: Problem) -> _Side:
     groups, si = problem.groups(), problem.scales()
     if reason := not_covered(groups):
         raise OutOfRange(
-            f"steady cracks in series cover {reason}; simulate both contacts "
-            "(`simulate`)"
+            f"steady cracks in series cover {reason}; simulate both contacts (`simulate`)"
         )
     groups = replace(groups, moves=(), stiffness=None)
     assert groups.tabor is not None

@@ -1,10 +1,8 @@
-r"""Boundary condition of the machine: depth, dead load or drive with spring; and loading legs.
+r"""Boundary condition of the machine, and the legs of a run, made from the moves of a test.
 
 The drive at D pushes the indenter, at depth :math:`\delta`, through a spring k with the force
 :math:`P = k (D - \delta)`. A rigid machine has an infinite k, and a dead load none: there P itself
 is imposed. A history is a sequence of legs, in each of which one of the three is linear in time.
-
-**Conversion of the moves of a test to the legs of a run.**
 """
 
 from __future__ import annotations

@@ -518,7 +518,7 @@ def _start_of_crack(groups: Groups) -> tuple[float, float]:
 
 
 def _by_cracks(problem: Problem | Groups, accuracy: float) -> Result:
-    """Convert the result of :func:`crack_contact` to a :class:`viscotack.Result`.
+    """Convert the result of :func:`viscotack.crack_contact` to a :class:`viscotack.Result`.
 
     Energies are not available; the error of the force is the band.
     """

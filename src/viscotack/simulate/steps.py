@@ -1,4 +1,4 @@
-"""Solver state between steps, and the constant data of a run.
+"""Solver state between steps, constant data of a run, and step-size control.
 
 **Step-size control: trial steps, their error measures and their acceptance.** A step is implicit
 and exact for a load linear in time (:mod:`.body`), so its error is of second order in its length.

@@ -24,8 +24,6 @@ from viscotack.model.traction.law import energy_and_traction
 
 # Largest softening of a law evaluated at the nodes [strength squared over work].
 _MOST_SOFTENING = 3.0
-
-
 # Gaps that differ by less [h0] are treated as nearly equal.
 _EVEN = 1e-3
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)

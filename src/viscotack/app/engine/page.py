@@ -1,4 +1,4 @@
-"""Requests of the page about its case: what theories and surrogates say, from milliseconds on.
+"""Requests of the page: fast theories and surrogates for its case, and its input forms.
 
 Curves are in SI, force (for a punch the mean stress) positive in compression, depth positive into
 the solid. No simulation is run.

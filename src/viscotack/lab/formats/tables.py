@@ -295,7 +295,7 @@ def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
     return found.pop() if len(found) == 1 else None
 
 
-# ---- temperatures in the names of files ---
+# ---- temperatures in the names of files ----------------------------------------------------------
 
 _IN_NAME = re.compile(
     r"(?<![0-9.A-SU-Za-su-z])(?P<number>[+-]?[0-9]+(?:\.[0-9]+)?) ?(?P<unit>degC|°C|C|K)"

@@ -1,4 +1,4 @@
-r"""Convert a solid: relaxation and retardation form, approximate Prony series, other units.
+r"""Convert solids: relaxation and retardation form, Prony series, other units, two bodies as one.
 
 A generalised Maxwell solid (parallel branches, :class:`Prony`) and a chain of Voigt elements
 (:func:`retardation_series`) are two forms of the same material:
@@ -275,8 +275,7 @@ def effective_solid(
     Parameters
     ----------
     first, second : Elastic, Prony or StandardSolid
-        Solids of the two bodies; :func:`viscotack.model.materials.conversion.prony_form`
-        approximates another one.
+        Solids of the two bodies; :func:`prony_form` approximates another one.
 
     Returns
     -------

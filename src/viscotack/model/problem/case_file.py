@@ -83,8 +83,9 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Case
     ----------
     path : path
         File with the tables [material], [interface], [protocol] and one for the indenter: [sphere],
-        [cone], [profile], [wavy-sphere], or [punch] and [layer]. Quantities are texts with units,
-        such as ``radius = "5.19 mm"``; files named in it are relative to its folder.
+        [cone], [profile], [disc], [wavy-sphere], [measured-profile], or [punch] and [layer].
+        Quantities are texts with units, such as ``radius = "5.19 mm"``; files named in it are
+        relative to its folder.
     also : iterable of classes
         User-defined laws, materials, shapes and bodies that the file may name by their words.
 

@@ -6,9 +6,9 @@ of a punch on a layer of a standard solid; of any other problem each number is a
 its path.
 
 In a table of changes each row replaces numbers of one problem; other columns are carried along. A
-column is named by a key of the problem file (``radius``, ``sphere.radius``) or by the path of the
-number (``sphere.radius``), with its unit in the heading (``radius [mm]``, ``radius_mm``) or in the
-cells (``5.19 mm``).
+column is named by a key of the problem file (``radius``) or by the path of the number
+(``sphere.radius``), with its unit in the heading (``radius [mm]``, ``radius_mm``) or in the cells
+(``5.19 mm``).
 """
 
 import difflib

@@ -35,7 +35,7 @@ _EXACT, _SQUARE = 1e-6, 0.01
 def read_topography(
     path: Path, *, pixel: float | None, unit: float | None, periodic: bool
 ) -> HeightMap:
-    """Read a map by SurfaceTopography; the parameters are those of :func:`.read_map`."""
+    """Read a map by SurfaceTopography; the parameters are those of :func:`read_map`."""
     try:
         library: Any = import_module("SurfaceTopography")
     except ImportError:

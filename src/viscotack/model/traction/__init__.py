@@ -3,7 +3,7 @@
 Traction is positive in TENSION (attraction). It is a function of the gap; for growing laws also
 of the opening speed, for ageing laws of the time in contact. Pressure in a result is its negative.
 The energy vanishes at infinite gap and is negative in contact.
-docs/traction-laws.md shows how to add a law.
+docs/own.md shows how to add a law.
 """
 
 from viscotack.model.traction.formulas import Dugdale, Exponential, LennardJones

@@ -1,4 +1,4 @@
-r"""Contact of a sphere and the half-space, with the closed-form JKR solution.
+r"""Contact of a sphere or a power-law tip and the half-space, with the closed-form JKR solution.
 
 **Contact of a power-law tip and the half-space: differences to the sphere.** Lengths along the
 surface are in :math:`\beta` with :math:`\beta^{2q-1} = \Delta\gamma_0/(E_0^* (qA)^2)`; with

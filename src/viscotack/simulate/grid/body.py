@@ -1,6 +1,6 @@
-"""State of a soft body under a map of heights at one instant, and its change by a step.
+"""State of a soft body under a map of heights, its change by a step, and the record of a run.
 
-**What a run on a grid records: contact area, patches and frames.**
+A run records contact area, patches and frames.
 """
 
 from __future__ import annotations

@@ -3,8 +3,6 @@
 A file is a NumPy archive with the arrays of several parts of a simulation, named ``part.array``,
 and one text in JSON per part. It stores every number in full, so that a run that continues has the
 same digits as one that was not interrupted.
-
-**Runs on a grid as arrays, and the reconstruction of them; see :mod:`.checkpoint`.**
 """
 
 from __future__ import annotations

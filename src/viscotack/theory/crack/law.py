@@ -1,4 +1,4 @@
-r"""Crack law in SI: energy per area of a crack in a given solid as a function of speed.
+r"""Crack laws in SI: energy per area of a crack by its speed, of a theory and solid or empirical.
 
 :mod:`viscotack.theory.crack.greenwood` and :mod:`viscotack.theory.crack.persson_brener` use
 dimensionless speeds, :math:`\hat v = v \tau_0/l`. A :class:`CrackLaw` combines one of them with a

@@ -1,8 +1,7 @@
 r"""Persson and Brener: the effective surface energy of a viscoelastic crack, any spectrum.
 
-The energy is dissipated in the bulk around a crack of tip length a, cut off at the frequency 2 pi v
-/ a.
-With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
+The energy is dissipated in the bulk around a crack of tip length a, cut off at the frequency
+2 pi v / a. With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
 (1 - e^{-t/\tau_j})`, the amplification :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` solves
 
 .. math:: \frac1\Gamma = 1 - \sum_j w_j \left[ \sqrt{1 + b_j^{-2}} - b_j^{-1} \right], \quad
@@ -24,12 +23,10 @@ integral of I(omega_c sin theta) sin theta is smooth between the angles of the r
 **Power-law regimes of the Persson-Brener theory: slow, intermediate, and their validity.** A slow
 crack dissipates in proportion to its speed (:func:`slow_amplification`); a faster one as a power of
 it that depends on the breadth of the spectrum (:func:`local_exponent`, :func:`steepest`); the
-fastest not at all. Speeds are dimensionless as in :mod:`viscotack.theory.crack.persson_brener`,
-:math:`\hat v = v \tau_0 / l_0`.
+fastest not at all.
 
-Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123; Maghami, PhD thesis (2025),
-Fig. 4.6 and appendix IV, published as doi:10.1016/j.jmps.2024.105844, whose fit
-q1 = -0.0125 + 3.136 n approximates the exact coefficient below at k = 0.
+Source: the same, Fig. 4.6 and appendix IV of the thesis, whose fit q1 = -0.0125 + 3.136 n
+approximates the exact coefficient below at k = 0.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ thick one like a half-plane, by cracks from the edges:
           \sqrt{\frac{2 \zeta E^* \Delta\gamma_0}{b}} \;(b_0 \le b \le b_1), \quad
           \sqrt{\frac{\pi E^* \Delta\gamma_0}{2 a}} \;(b > b_1).
 
-A :class:`viscotack.theory.punch.pad.Pad` has the half width a, the contact modulus E*, the work of
+A :class:`Pad` has the half width a, the contact modulus E*, the work of
 adhesion :math:`\Delta\gamma_0`, the strength :math:`\sigma_0` and the base: ``Frictionless()``,
 with zeta = 1, or ``Bonded(poisson_ratio=...)``, with :math:`\zeta = (1 - \nu)^2/(1 - 2\nu)`. The
 thickness b is a separate argument, because the theories vary or solve for it; so is the
@@ -87,7 +87,7 @@ class Pad:
 
     @property
     def fracture_length(self) -> float:
-        """Return a0 [m], :func:`viscotack.theory.punch.pad.fracture_length`."""
+        """Return a0 [m], :func:`fracture_length`."""
         return float(
             fracture_length(
                 contact_modulus=self.contact_modulus,

@@ -1,4 +1,4 @@
-r"""Retraction of a flat punch from a viscoelastic layer at a given speed: the state at pull-off.
+r"""Retraction of a flat punch from a viscoelastic layer: pull-off, edge cracks, map of regimes.
 
 During retraction, :math:`v = r t` above the free surface, the layer under the punch stores energy
 and its two edges recede as cracks. With a relaxed bulk and viscoelastic edges,
