@@ -273,15 +273,23 @@ def speeds(given):
             f"{rows[-1][3]:16.1%} {found.statistics['steps']:10.0f} {process_time() - began:6.0f}",
             flush=True,
         )
-    with drawing(6.4, 3.2) as figure:
-        left, right = figure.subplots(1, 2)
-        for axes, column, factor, word in (
-            (left, 1, 1e-3, "pull-off stress [kPa]"),
-            (right, 2, 1e3, "dissipated in a cycle [mJ/m²]"),
+    draw_speeds(np.array(rows).T)
+
+
+def draw_speeds(columns):
+    """Draw pull-off stress [Pa], dissipation [J/m2] and largest share in contact by speed [m/s]."""
+    labels = {"pull-off stress [kPa]": 1e-3, "loss [mJ/m²]": 1e3, "touching [%]": 100}
+    with drawing(7.2, 2.8) as figure:
+        figure.set_layout_engine("constrained")
+        for axes, values, (label, factor) in zip(
+            figure.subplots(1, 3), columns[1:], labels.items(), strict=True
         ):
-            axes.loglog([row[0] for row in rows], [factor * row[column] for row in rows], "o-")
-            axes.set_xlabel("speed [m/s]")
-            axes.set_ylabel(word)
+            axes.loglog(1e6 * columns[0], factor * values, "o-")
+            if factor == 100:
+                axes.set_yscale("linear")
+            axes.yaxis.set_minor_formatter("")
+            axes.set_xlabel("speed [µm/s]")
+            axes.set_ylabel(label)
         save_figure(figure, "docs/rough_speed.png")
 
 

@@ -1,6 +1,5 @@
 """Laboratory data: frequency sweeps, master curves, relaxation and creep tests, and their fits."""
 
-from viscotack.model.materials.shift import FittedShift as ShiftFit
 
 from .fit.fitting import allow_for_shifts, fit
 from .fit.master_curve import contradiction, master_curve, superposed
@@ -24,7 +23,6 @@ __all__ = [
     "MasterCurve",
     "Options",
     "RelaxationTest",
-    "ShiftFit",
     "Source",
     "TackOptions",
     "allow_for_shifts",
