@@ -10,6 +10,7 @@ from synthetic import jkr_detachment, jkr_result
 from viscotack import simulate
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
+from viscotack.files.text import read_rows
 from viscotack.files.toml import read_toml
 from viscotack.files.whole import (
     NotWritten,
@@ -154,3 +155,11 @@ def test_tables_of_spreadsheets_are_read_in_their_encodings(tmp_path):
         assert tuple(read_quantities(file, units).values()) == ((9.0,), (0.1,))
     file.write_text("gap_nm\n5\n")
     assert read_quantities(file, {"gap": "m"}) == {"gap": (5e-9,)}
+
+
+def test_a_mark_begins_a_heading_of_cases_and_a_comment_of_curves(tmp_path):
+    path = tmp_path / "table.csv"
+    path.write_text("#;radius [mm]\n1;5,19\n")
+    assert [row for _, row in read_rows(path)] == [["#", "radius [mm]"], ["1", "5.19"]]
+    path.write_text("# a, b\ngap_nm;traction_kPa\n1,5;2\n")
+    assert read_quantities(path, {"gap": "m", "traction": "Pa"})["gap"] == pytest.approx([1.5e-9])

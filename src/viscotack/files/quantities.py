@@ -45,11 +45,7 @@ def read_quantities(
         line.
     """
     path = Path(path)
-    rows = [
-        (line, row)
-        for line, row in read_rows(path)
-        if any(map(str.strip, row)) and not row[0].startswith("#")
-    ]
+    rows = [x for x in read_rows(path, comments=True) if any(map(str.strip, x[1]))]
     header = [name.strip() for name in rows[0][1]] if rows else []
     places = {name: _place(path, header, name, unit) for name, unit in units.items()}
     if len(rows) > most + 1:
@@ -78,8 +74,8 @@ def _place(path: Path, header: list[str], name: str, unit: str) -> tuple[int, st
     ]
     if len(found) != 1:
         raise InputError(
-            f"{path}: no column {name} with its unit, such as {name}_{unit}; the first row is "
-            f"{','.join(header)!r}"
+            f"{path}: no column {name} with its unit, such as {name}_{unit or 's'}; the first row "
+            f"is {','.join(header)!r}"
         )
     given = header[found[0]].removeprefix(name).removeprefix("_") or "1"
     with placed(f"{path}, unit of column {name}:"):

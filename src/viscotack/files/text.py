@@ -109,11 +109,11 @@ def cell(text: str) -> str:
     return f"'{text}" if text.startswith(_FORMULA) and not is_number(text) else text
 
 
-def read_rows(path: str | os.PathLike[str]) -> Iterator[Line]:
+def read_rows(path: str | os.PathLike[str], *, comments: bool = False) -> Iterator[Line]:
     """Yield the rows of a CSV file with the numbers of their lines, the first one too.
 
     Columns are separated by commas; by semicolons or tabs where the first row has these and no
-    comma, with decimal commas. That row is the first one that does not begin with ``#``.
+    comma, with decimal commas. Lines that begin with ``#`` are left out if they are comments.
 
     Raises
     ------
@@ -123,7 +123,9 @@ def read_rows(path: str | os.PathLike[str]) -> Iterator[Line]:
         If it is not a text file.
     """
     lines = [found[0] for found in _LINE.finditer(read_text(path))]
-    head = next((line for line in lines if line.strip() and not line.startswith("#")), "")
+    if comments:
+        lines = ["\n" if line.startswith("#") else line for line in lines]
+    head = next((line for line in lines if line.strip()), "")
     mark = next((mark for mark in ";\t" if mark in head and "," not in head), ",")
     reader = csv.reader(lines, delimiter=mark)
     try:

@@ -1,6 +1,5 @@
 """Laboratory data: frequency sweeps, master curves, relaxation and creep tests, and their fits."""
 
-
 from .fit.fitting import allow_for_shifts, fit
 from .fit.master_curve import contradiction, master_curve, superposed
 from .fit.report import FitReport, issued

@@ -99,7 +99,8 @@ class Opened(NamedTuple):
         elif wanted in tests and self.given.kind:
             why = f"its moduli are not of `kind` {self.given.kind}; `poisson_ratio` converts them"
         elif others:
-            why = "it contains a `shift_file`" if others[0] == "shifts" else f"`test` {others[0]}"
+            what = "a `shift_file`" if others[0] == "shifts" else f"a test for `test` {others[0]}"
+            why = f"it contains {what}"
         else:
             found = (_nonlinear(columns) for columns in every)
             why = next(filter(None, found), f"found {self.headings}")

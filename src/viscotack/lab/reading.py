@@ -234,7 +234,7 @@ def _open(path: Path, given: Options) -> Opened:
         many = f"{len(read)} sheets of sweeps are read"
         which = many if len(read) > 1 else f"sheet {first!r} is read"
         if others:
-            notes.append(f"{which}, {others} are not; name another as the table")
+            notes.append(f"{which}, {others} are not; `table` chooses")
         elif len(read) > 1:
             notes.append(f"{which}: {', '.join(map(repr, sheets))}")
         if alike:

@@ -304,6 +304,9 @@ def named_as_flags(word: str, *, in_si: bool) -> Iterator[None]:
             of, _, key = place.partition(".")
             if key and of == table:
                 words = re.sub(rf"(?<![\w`.]){key}(?![\w`.=])", f"`{flag}`", words)
+        if words.startswith("needs exactly one of "):
+            # no start of a punch or a disc, which the tables of groups have for all shapes
+            words = "the test " + words.replace("preload_radius, ", "")
         if "unknown key" in words:
             words = f"this solid has no `{name}`; leave it out"
         # what most mean by a preload

@@ -315,7 +315,7 @@ def _undecided(alike: Sequence[FitReport]) -> tuple[str, ...]:
         each.append(f"{one.model} ({above}; rubbery {rubbery}, glassy {glassy})")
     return (
         f"the data do not distinguish {' from '.join(each)}; the one with the fewest constants is "
-        "used; name another model to fit it",
+        "used; `model` fits another",
     )
 
 

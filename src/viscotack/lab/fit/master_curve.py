@@ -108,7 +108,11 @@ def master_curve(
     unknown, many = bool(np.any(np.isnan(temperature))), bool(np.ptp(temperature) > GAP)
     if reference is None:
         if shift is not None or many:
-            raise InputError("several temperatures, or a shift, need `reference_temperature`")
+            known = temperature[np.isfinite(temperature)] - 273.15
+            between = f"{known.min(initial=np.inf):.1f} to {known.max(initial=-np.inf):.1f} C"
+            raise InputError(
+                f"sweeps from {between}, or with a shift, need `reference_temperature`"
+            )
         return _moved(sweeps, None if unknown else float(np.mean(temperature)))
     if unknown:
         raise InputError("the temperature of some points is unknown; set `temperature`")

@@ -87,8 +87,8 @@ def superposition(sweeps: FrequencySweeps, shifts: TabulatedShift) -> tuple[str,
             found.append(
                 f"sweeps do not superpose in {name}: {between[worst]} differ by "
                 f"{100 * np.expm1(common[worst]):.2g} % where they overlap ({off.sum()} such "
-                "pairs): moduli that move with temperature (allow a vertical shift), a glass, two "
-                "processes or a faulty sweep (leave it out)"
+                "pairs): moduli that move with temperature (`vertical`), a glass, two "
+                "processes or a faulty sweep (`leave_out`)"
             )
     try:
         steps = steps_between(temperature[shapely], curves, *BEST)

@@ -327,7 +327,9 @@ class Columns:
             kinds = {heading.kind for _, heading in (first, other)} - {None}
             apart = self._apart(quantity, first, other)
             if len(kinds) > 1:
-                raise self.error(f'"{names[0]}" and "{names[1]}" are one quantity; set `kind`')
+                raise self.error(
+                    f'"{names[0]}" and "{names[1]}" are one quantity; set `kind` to E or G'
+                )
             if not np.any(apart > 1):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
             elif far(other) > far(first):
@@ -335,8 +337,16 @@ class Columns:
                 unused = f'"{names[1]}" differs by up to {worst} and is not used'
                 self.notes.append(f'"{names[0]}" is the temperature; {unused}')
             else:
-                both = f'two columns of {quantity}, "{names[0]}" and "{names[1]}"'
-                raise self.error(f"{both}; choose one by {self.words.columns}")
+                cure = f"choose one, for example {self.words.one}"
+                cure = cure.format(quantity=quantity, number=first[0] + 1)
+                if self.words.one.startswith("`{") and quantity not in (
+                    "time",
+                    "position",
+                    "force",
+                ):
+                    cure = "which of them is meant is unknown; leave one out"
+                both = f'two columns of {quantity}: "{names[0]}" and "{names[1]}"'
+                raise self.error(f"{both}; {cure}")
         self._chosen[quantity] = first
         return first
 
@@ -371,7 +381,7 @@ class MaterialColumns(Columns):
         headings = [h for q in quantities for _, h in self._found.get(q, [])]
         said = {heading.kind for heading in headings} - {None}
         if len(said) > 1:
-            raise self.error("a column is tensile (E), another is shear (G); set `kind` to one")
+            raise self.error("a column is tensile (E), another is shear (G); set `kind` to E or G")
         if said:
             return said.pop()
         known = [heading.kind for heading in map(recognise, self.table.headings) if heading]

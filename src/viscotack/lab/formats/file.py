@@ -120,7 +120,9 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
         text = content.decode(encoding or "utf-8")
     except UnicodeDecodeError as error:
         if encoding is not None:
-            raise file.error(f"the bytes after {error.start} are no {encoding} text") from None
+            raise file.error(
+                f"the bytes after {error.start} are not {encoding} text; it is damaged or no table"
+            ) from None
         text, encoding = _by_code_page(content)
     if "\0" in text:
         raise file.error("the file is neither text nor an Excel workbook; export it as text")

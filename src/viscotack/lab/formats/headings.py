@@ -478,6 +478,7 @@ class Vocabulary(NamedTuple):
     suffice: Callable[[set[str]], bool]
     usual: str
     columns: str
+    one: str
 
     def heads(self, row: Sequence[str], names: Sequence[str] = ()) -> bool:
         """Return whether a row heads a table, or names the columns given by the caller."""
@@ -504,11 +505,14 @@ MATERIAL = Vocabulary(
     recognise,
     lambda found: len(found) > 1,
     "\"f, E', E'', T\"",
-    '`columns`, such as "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
+    '`columns` "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
+    '`columns` "{quantity}={number}"',
 )
 TACK = Vocabulary(
     recognise_tack,
     lambda found: "force" in found and bool(found & {*POSITIONS, "time"}),
     '"Time [s], Gap [mm], Normal Force [N]"',
-    "`time_column`, `position_column` and `force_column`, with their units",
+    "`time_column` 1 `time_unit` UNIT `position_column` 2 `length_unit` UNIT `force_column` 3 "
+    "`force_unit` UNIT",
+    "`{quantity}_column` {number}",
 )

@@ -334,5 +334,7 @@ def kelvin_in_name(file: LabFile) -> float:
         )
     found = kelvins_in_name(file.path)
     if len(found) != 1:
-        raise file.error(f"`temperature_in_name` needs one such as '25C', found {len(found)}")
+        raise file.error(
+            f"`temperature_in_name` needs one temperature such as '25C', found {len(found)}"
+        )
     return found.pop()

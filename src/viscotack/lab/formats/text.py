@@ -107,8 +107,8 @@ def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[T
         raise file.error(f"{first!r} is the only column; a test needs two or more in one file")
     raise file.error(
         f"none of the first {LOOKED} lines looks like headings such as {words.usual} with units "
-        f"beside or below them; the file begins {first[:60]!r}; choose columns of numbers alone by "
-        f"{words.columns}"
+        f"beside or below them; the file begins {first[:60]!r}; choose columns by their "
+        f"number, such as {words.columns}"
     )
 
 

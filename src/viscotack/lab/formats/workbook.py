@@ -50,7 +50,8 @@ def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[
     if not tables:
         raise file.error(
             f"no sheet has headings such as {words.usual} in its first {_LOOKED} rows; the sheets "
-            f"are {', '.join(map(repr, found))}; choose columns by number, such as {words.columns}"
+            f"are {', '.join(map(repr, found))}; choose columns by their number, such as "
+            f"{words.columns}"
         )
     return tables
 

@@ -303,7 +303,9 @@ def _zero(
     least = int(np.argmin((outer - straight(outer, far, noise))[::-1]))
     most = own.end - own.retract - least - 1
     if outwards is None or min(outwards.free, most) < _FREE:
-        raise InputError("the force does not settle after it: retract until free of contact")
+        raise InputError(
+            "the force does not settle after the pull-off: retract until free of contact"
+        )
     inwards = contact_of(clean[down], way[down], clock[down], noise, 0.5)
     free = [slice(own.end - int(_KEPT * min(outwards.free, most)), own.end)]
     if inwards is not None:

@@ -119,8 +119,10 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
         if one.into != other.into:
             raise InputError(f"{other.source.path}: its position is another quantity than before")
         if other.time[0] < one.time[-1]:
-            times = f"it begins at {other.time[0]:g} s, before the interval before ends"
-            raise InputError(f"{other.source.path}: {times}; count from the start of the test")
+            raise InputError(
+                f"{other.source.path}: it begins at {other.time[0]:g} s, before the end of the "
+                f"previous interval at {one.time[-1]:g} s; count from the start of the test"
+            )
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
     columns: dict[str, Any] = {}
     for name in ("time", "force", "position", "contact_radius", "temperature"):

@@ -422,6 +422,8 @@ def material_of(given: Any, reading: Reading) -> Material:
         (ratio * plain.rubbery_modulus, t) for ratio, t in zip(ratios, times, strict=True)
     )
     with placed(f"{file}:"):
+        if min(ratios) <= 0:
+            raise InputError(f"modulus_ratio must be positive, got {min(ratios):g}")
         return Prony(**vars(plain), branches=branches)
 
 
