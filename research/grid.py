@@ -273,23 +273,19 @@ def speeds(given):
             f"{rows[-1][3]:16.1%} {found.statistics['steps']:10.0f} {process_time() - began:6.0f}",
             flush=True,
         )
-    draw_speeds(np.array(rows).T)
-
-
-def draw_speeds(columns):
-    """Draw pull-off stress [Pa], dissipation [J/m2] and largest share in contact by speed [m/s]."""
-    labels = {"pull-off stress [kPa]": 1e-3, "loss [mJ/m²]": 1e3, "touching [%]": 100}
+    speed, stress, lost, touching = np.array(rows).T
     with drawing(7.2, 2.8) as figure:
         figure.set_layout_engine("constrained")
-        for axes, values, (label, factor) in zip(
-            figure.subplots(1, 3), columns[1:], labels.items(), strict=True
-        ):
-            axes.loglog(1e6 * columns[0], factor * values, "o-")
-            if factor == 100:
-                axes.set_yscale("linear")
+        left, middle, right = figure.subplots(1, 3)
+        left.loglog(1e6 * speed, 1e-3 * stress, "o-")
+        left.set_ylabel("pull-off stress [kPa]")
+        middle.loglog(1e6 * speed, 1e3 * lost, "o-")
+        middle.set_ylabel("loss [mJ/m²]")
+        right.semilogx(1e6 * speed, 100 * touching, "o-")
+        right.set_ylabel("touching [%]")
+        for axes in (left, middle, right):
             axes.yaxis.set_minor_formatter("")
             axes.set_xlabel("speed [µm/s]")
-            axes.set_ylabel(label)
         save_figure(figure, "docs/rough_speed.png")
 
 

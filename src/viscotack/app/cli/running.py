@@ -80,7 +80,7 @@ def finish(
     files: Mapping[Output, Path | None],
     as_json: bool,
     read: Sequence[Path],
-    kind: type[Request],
+    kind: type[Request] | None,
 ) -> None:
     """Write the files of an answer, print it, and exit with its status.
 
@@ -174,7 +174,8 @@ def carry_out(
         caller = Caller(tell, wants, own_nouns(own), paths, study.parent if study else Path())
         caller.read.extend([*map(Path, paths), *([study] if study else [])])
         answer = answered(asked, caller)
-    finish(answer, files, as_json, caller.read, type(asked))
+    # a study has options by name, not flags
+    finish(answer, files, as_json, caller.read, None if study else type(asked))
 
 
 @contextmanager

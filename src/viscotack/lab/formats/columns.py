@@ -337,16 +337,8 @@ class Columns:
                 unused = f'"{names[1]}" differs by up to {worst} and is not used'
                 self.notes.append(f'"{names[0]}" is the temperature; {unused}')
             else:
-                cure = f"choose one, for example {self.words.one}"
-                cure = cure.format(quantity=quantity, number=first[0] + 1)
-                if self.words.one.startswith("`{") and quantity not in (
-                    "time",
-                    "position",
-                    "force",
-                ):
-                    cure = "which of them is meant is unknown; leave one out"
                 both = f'two columns of {quantity}: "{names[0]}" and "{names[1]}"'
-                raise self.error(f"{both}; {cure}")
+                raise self.error(f"{both}; {self.words.choose(quantity, first[0] + 1)}")
         self._chosen[quantity] = first
         return first
 

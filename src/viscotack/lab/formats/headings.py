@@ -478,7 +478,7 @@ class Vocabulary(NamedTuple):
     suffice: Callable[[set[str]], bool]
     usual: str
     columns: str
-    one: str
+    choose: Callable[[str, int], str]
 
     def heads(self, row: Sequence[str], names: Sequence[str] = ()) -> bool:
         """Return whether a row heads a table, or names the columns given by the caller."""
@@ -506,7 +506,7 @@ MATERIAL = Vocabulary(
     lambda found: len(found) > 1,
     "\"f, E', E'', T\"",
     '`columns` "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
-    '`columns` "{quantity}={number}"',
+    lambda quantity, number: f'choose one, for example `columns` "{quantity}={number}"',
 )
 TACK = Vocabulary(
     recognise_tack,
@@ -514,5 +514,9 @@ TACK = Vocabulary(
     '"Time [s], Gap [mm], Normal Force [N]"',
     "`time_column` 1 `time_unit` UNIT `position_column` 2 `length_unit` UNIT `force_column` 3 "
     "`force_unit` UNIT",
-    "`{quantity}_column` {number}",
+    lambda quantity, number: (
+        f"choose one, for example `{quantity}_column` {number}"
+        if quantity in ("time", "position", "force")
+        else "which of them is meant is unknown; leave one out"
+    ),
 )
