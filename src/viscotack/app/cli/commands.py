@@ -123,12 +123,12 @@ def study_command(
 
 def _spelled(error: InputError, kind: "type[Request] | None") -> str:
     """Return the message of an error, with the field that it names as the flag."""
-    from viscotack.app.operations.flags import spelled
+    from viscotack.app.operations.flags import in_flags
 
     words, name = str(error), error.field
     if name and words.startswith(name):
         words = f"`{name}`{words.removeprefix(name)}"
-    return spelled(words, kind)
+    return in_flags(words, kind)
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:

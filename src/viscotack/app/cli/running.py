@@ -15,7 +15,7 @@ from typing import Any
 
 import typer
 
-from viscotack.app.operations.flags import spelled
+from viscotack.app.operations.flags import in_flags
 from viscotack.app.operations.options import Output
 from viscotack.app.operations.request import Answer, Caller, Request, answered
 from viscotack.errors import InputError
@@ -114,11 +114,11 @@ def finish(
             if not to_output:
                 typer.echo(f"wrote {file}", err=True)
     for note in answer.notes:
-        typer.echo(harmless(spelled(note, kind)), err=True)
+        typer.echo(harmless(in_flags(note, kind)), err=True)
     if as_json:
         text = json.dumps(answer.record(), indent=2, allow_nan=False)
     else:
-        text = spelled(str(answer), kind)
+        text = in_flags(str(answer), kind)
     try:
         if text:
             typer.echo(harmless(text), err=is_taken)

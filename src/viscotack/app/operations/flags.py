@@ -334,13 +334,13 @@ def _text(said: Mapping[str, Any], name: str, usual: str) -> str:
     return os.fspath(value)
 
 
-def spelled(words: str, kind: "type[Request] | None") -> str:
+def in_flags(words: str, kind: "type[Request] | None") -> str:
     """Return a text with the options that it quotes as the command line spells them.
 
     Examples
     --------
     >>> from viscotack.app.operations.forecast import NextTest
-    >>> spelled("the wanted forecast needs its speed, `forecast_speed`", NextTest)
+    >>> in_flags("the wanted forecast needs its speed, `forecast_speed`", NextTest)
     'the wanted forecast needs its speed, --forecast-speed'
     """
 
