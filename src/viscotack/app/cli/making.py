@@ -1,6 +1,7 @@
 """Commands made from requests: the options of a command are the fields of its request."""
 
 import inspect
+import re
 from collections.abc import Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
@@ -8,12 +9,14 @@ from typing import Annotated, Any, get_args
 
 import typer
 from pydantic.fields import FieldInfo
+from typer.core import TyperCommand
 from typer.main import get_command
 
 from viscotack.app.operations import operation
-from viscotack.app.operations.flags import OF_FILE, flags_of
+from viscotack.app.operations.flags import OF_FILE, Flag, flags_of
 from viscotack.app.operations.options import (
     Contact,
+    File,
     Number,
     Option,
     Rows,
@@ -31,6 +34,28 @@ from .running import carry_out
 
 _SETTINGS = {"max_content_width": 100}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
+# Sections of a help text.
+_OWN, _FILES, _ALWAYS = (
+    "Options",
+    "Files to write (- is standard output, for text)",
+    "General",
+)
+
+
+class BySubject(TyperCommand):
+    """A command whose help lists its options by subject."""
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write arguments, then the options of each section."""
+        sections: dict[str, list[tuple[str, str]]] = {}
+        parameters: Any = self.get_params(ctx)
+        for each in parameters:
+            is_argument = each.param_type_name == "argument"
+            record = (each.metavar, each.help) if is_argument else each.get_help_record(ctx)
+            sections.setdefault(each.rich_help_panel or _ALWAYS, []).append(record)
+        for title, records in sections.items():
+            with formatter.section(title):
+                formatter.write_dl(records)
 
 
 def command_of(name: str) -> Any:
@@ -43,8 +68,20 @@ def command_of(name: str) -> Any:
     parameters = list(_parameters(kind))
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
-    alone.command(last, help=cleandoc(kind.__doc__ or ""), context_settings=_SETTINGS)(command)
+    words = _copied(cleandoc(kind.__doc__ or ""))
+    alone.command(last, cls=BySubject, help=words, context_settings=_SETTINGS)(command)
     return get_command(alone)
+
+
+def _copied(words: str) -> str:
+    """Return a docstring whose examples keep their lines and can be copied from the help."""
+
+    def kept(found: re.Match[str]) -> str:
+        lines = found["command"].replace("\n", " \\\n    ")
+        return f"\b\n{found['title']}:\n  {lines}"
+
+    example = r"^(?P<title>[^\n:]+): (?P<command>viscotack (?:.|\n(?!\n))+)"
+    return re.sub(example, kept, words, flags=re.MULTILINE)
 
 
 def _parameters(kind: type[Request]) -> Iterator[inspect.Parameter]:
@@ -54,10 +91,11 @@ def _parameters(kind: type[Request]) -> Iterator[inspect.Parameter]:
         if isinstance(option, Contact):
             yield from _of_problem(option)
         elif not (isinstance(option, Rows) and option.elsewhere):
-            yield _of_option(name, option, info)
+            yield _of_option(name, option, info, _section(kind, name))
+    how: dict[str, Any] = {"metavar": "FILE", "show_default": False, "rich_help_panel": _FILES}
     for output in kind.outputs:
         flags = output.flags or (f"--{output.name}",)
-        words = typer.Option(*flags, metavar="FILE", help=output.words, show_default=False)
+        words = typer.Option(*flags, help=output.words, **how)
         needed = output.needed
         yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
     if kind.takes_own:
@@ -78,13 +116,20 @@ def _parameter(
     )
 
 
-def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
+def _section(kind: type[Request], name: str) -> str:
+    """Return the section of an option: that of the class that declares it."""
+    of = next(each for each in kind.__mro__ if name in vars(each).get("__annotations__", {}))
+    return vars(of).get("section", _OWN)
+
+
+def _of_option(name: str, option: Option, info: FieldInfo, section: str) -> inspect.Parameter:
     # all values are text; the request converts them
     kind: Any = list[str] if is_many(info) else str
     told, needed, default = option.words, info.is_required(), info.default
-    how: dict[str, Any] = {"help": told, "show_default": False}
+    how: dict[str, Any] = {"help": told, "show_default": False, "rich_help_panel": section}
     flags = option.flags or (flag_of(name, option),)
     if option.argument:
+        how["rich_help_panel"] = "Arguments"
         words = typer.Argument(metavar=option.metavar or name.upper(), **how)
     elif info.annotation is bool:
         kind = bool
@@ -94,7 +139,9 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
     else:
         if not needed and default not in (None, (), "", 0):
             how["help"] += f" [default: {default}]"
-        usual = "NUMBER" if info.annotation is int or isinstance(option, Number) else "TEXT"
+        kinds = get_args(info.annotation) or (info.annotation,)
+        usual = "NUMBER" if int in kinds or isinstance(option, Number) else "TEXT"
+        usual = "FILE" if isinstance(option, File) else usual
         usual = "QUANTITY" if getattr(option, "unit", "1") != "1" else usual
         usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
         words = typer.Option(*flags, metavar=option.metavar or usual, **how)
@@ -105,7 +152,8 @@ def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
     """Yield the parameters of a problem: words and files, and the flags of an indenter."""
     only, needed = option.spelling == "case", option.spelling != "flags"
     told = option.words if needed else f"{option.words} {_CASE}"
-    words = typer.Argument(metavar=option.metavar or "CASE.toml", help=told, show_default=False)
+    how: dict[str, Any] = {"show_default": False, "rich_help_panel": "Arguments"}
+    words = typer.Argument(metavar=option.metavar or "CASE.toml", help=told, **how)
     kind: Any = str if only else list[str] if needed else list[str] | None
     yield _parameter("problem_", kind, words, needed=needed)
     flags = OF_FILE if only else flags_of(option.indenters)
@@ -113,10 +161,18 @@ def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
         if option.in_si and not flag.si:
             continue
         usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
-        words = typer.Option(
-            f"--{name.replace('_', '-')}", metavar=usual, help=flag.words, show_default=False
-        )
+        how["rich_help_panel"] = _OWN if only else _stated_in(flag)
+        words = typer.Option(f"--{name.replace('_', '-')}", metavar=usual, help=flag.words, **how)
         yield _parameter(f"of_{name}", list[str] | None if flag.many else str | None, words)
+
+
+def _stated_in(flag: Flag) -> str:
+    """Return the section of a flag of a problem."""
+    if not flag.pure:
+        return "The contact in SI, numbers with units" if flag.si else "The contact in a file"
+    if not flag.si:
+        return "The contact without dimensions"
+    return "The contact, in SI or as a multiple [of this]"
 
 
 def _run(kind: type[Request], said: dict[str, Any]) -> None:

@@ -136,9 +136,7 @@ class ExportContact(Request):
     """
 
     word: ClassVar = "export contact"
-    outputs: ClassVar = (
-        main_file("Write the header to this file; - is standard output.", ".h", usual="-"),
-    )
+    outputs: ClassVar = (main_file("Write the header.", ".h", usual="-"),)
     takes_own: ClassVar = True
 
     problem: Any = case("A sphere on a half-space in SI; its protocol does not matter.")

@@ -57,122 +57,114 @@ def _both(words: str, key: str, **more: Any) -> Flag:
 
 
 _MATERIAL = (
-    "power-law (default; of a punch sls), sls, fractional-zener:ORDER, elastic; prony:FILE, a CSV "
-    "file 'modulus_ratio,relaxation_time_s' with a branch a row, whose unit of time is then that "
-    "of --rate; a passport FILE.toml, or a published material (`viscotack material list`); "
-    "NAME:NUMBERS for one of --with."
+    "power-law (default; of a punch sls), sls, fractional-zener:ORDER, elastic, prony:FILE (CSV, "
+    "modulus_ratio and relaxation_time_s, whose unit is then that of --rate), a passport "
+    "FILE.toml, a published name (`viscotack material list`), or NAME:NUMBERS by --with."
 )
 _MOVE = (
     "A move before the retraction, repeatable: 'approach SPEED to WHERE', 'retract SPEED to WHERE' "
     "(depth, force or radius and a number), 'move to DEPTH in TIME', 'load to FORCE in TIME', "
-    "'dwell TIME', 'hold drive|depth|force TIME'; with units in SI."
+    "'dwell TIME', 'hold drive|depth|force TIME'."
 )
 LAW = (
-    "lennard-jones (default), dugdale, exponential:DECAY (over h0), table:FILE, a CSV file "
-    "'gap_nm,traction_kPa'; NAME:NUMBERS for one of --with. Strength that grows with the opening "
-    "speed: gent-schultz:SPEED,EXPONENT or eyring:SPEED,SENSITIVITY; with the time in contact: "
-    "logarithmic-ageing:TIME,SENSITIVITY or saturating-ageing:TIME,GROWTH; with :LAW behind it for "
-    "another law at rest."
+    "lennard-jones (default), dugdale, exponential:DECAY (over h0), table:FILE (CSV, gap_nm and "
+    "traction_kPa), or NAME:NUMBERS by --with. Growing with the opening speed: "
+    "gent-schultz:SPEED,EXPONENT, eyring:SPEED,SENSITIVITY; with the time in contact: "
+    "logarithmic-ageing:TIME,SENSITIVITY, saturating-ageing:TIME,GROWTH; :LAW behind one is its "
+    "law at rest."
 )
 # Of a problem that a file states.
 OF_FILE = {
     "temperature": Flag(
-        'In SI: temperature of a passport, "0 degC", which shifts its times.',
-        si="material.temperature",
+        'Temperature of a passport, "0 degC"; shifts its times.', si="material.temperature"
     ),
     "set": Flag(
-        'Replace a number of CASE.toml, sphere.radius="6 mm"; `viscotack campaign inputs '
-        "CASE.toml` lists the names. Repeatable.",
+        'Change a number of CASE.toml, sphere.radius="6 mm"; `viscotack campaign inputs CASE.toml` '
+        "lists them. Repeatable.",
         many=True,
         metavar="NAME=VALUE",
     ),
 }
 FLAGS: Mapping[str, Flag] = {
+    "radius": Flag(
+        'Radius of the sphere or disc, "5 mm".', si="shape.radius", indenters=("sphere", "disc")
+    ),
+    "half_width": Flag('Half width of the punch, "1 mm".', si="punch.half_width", indenters=_PUNCH),
+    "rubbery_modulus": Flag(
+        'Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; a passport is scaled to it.',
+        si="material.rubbery_modulus",
+    ),
+    "contact_modulus": Flag('Or: E0* = E0/(1 - nu^2), "1.94 MPa".', si="material.contact_modulus"),
+    "poisson_ratio": Flag("0.5 when left out.", si="material.poisson_ratio"),
+    "tau0": Flag('Time of the solid, "100 ms"; not with a passport.', si="material.tau0"),
+    "temperature": OF_FILE["temperature"],
+    "work_of_adhesion": Flag('Work of adhesion dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"),
+    "equilibrium_gap": Flag(
+        'Range of the attraction h0, "100 nm".', si="interface.equilibrium_gap"
+    ),
+    "strength": Flag('Or: largest tension, "100 kPa".', si="interface.strength"),
+    "speed": Flag('Retraction speed, "10 um/s".', si="protocol.speed"),
     "tabor": Flag(
         "Tabor number mu = (R dg0^2/(E0*^2 h0^3))^(1/3).", "groups.tabor", indenters=ROUND
     ),
     "size": Flag("Half width of the punch over a0.", "punch.half_width", indenters=_PUNCH),
-    "cohesion": Flag("Strength over E0*.", "groups.cohesion", indenters=_PUNCH),
+    "cohesion": Flag(
+        "Strength of the punch's interface over E0*.", "groups.cohesion", indenters=_PUNCH
+    ),
     "profile_exponent": Flag(
         "Exponent q of z = A r^q, from 1 (cone).", "shape.exponent", indenters=("profile",)
     ),
     "points": Flag(
-        "In place of --profile-exponent: CSV file of a profile, radius_1 (in beta) and height_1 "
-        "(scaled so that the closest sphere has the radius R).",
+        "Or: a profile as CSV, radius_1 (in beta) and height_1 (scaled to the radius R of the "
+        "closest sphere).",
         "shape.file",
         indenters=("profile",),
         metavar="FILE.csv",
     ),
+    "rate": Flag(
+        "Retraction speed [h0/tau0; prony: h0 per unit of time]; without it a test ends with its "
+        "last --move.",
+        "groups.rate",
+    ),
+    "material": _both(_MATERIAL, "material.model", metavar="MATERIAL"),
     "modulus_ratio": _both("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio"),
     "exponent": _both("Exponent n of the modified power law.", "material.exponent"),
+    "law": _both(LAW, "interface.law", metavar="LAW"),
+    "thickness": _both(
+        "Thickness of a layer [beta = (R^2 dg0/E0*)^(1/3), of a punch a0]; a half-space when left "
+        "out.",
+        "layer.thickness",
+    ),
+    "bonded": _both(BONDED, "layer.poisson_ratio"),
     "preload": Flag(
-        "Depth of the relaxed start, positive into the solid, in h0.",
+        "Depth of the relaxed start, positive into the solid [h0].",
         "groups.preload",
         "protocol.preload_depth",
     ),
     "preload_force": Flag(
-        "Or: force of the relaxed start, positive in compression, in 1.5 pi R dg0; of a punch the "
-        "mean stress, in the strength.",
+        "Or: its force, positive in compression [1.5 pi R dg0]; of a punch the mean stress "
+        "[strength].",
         "groups.preload_force",
         "protocol.preload_force",
     ),
     "preload_radius": Flag(
-        "Or: contact radius of the relaxed start, in (pi R^2 dg0/E0*)^(1/3).",
+        "Or: its contact radius [(pi R^2 dg0/E0*)^(1/3)].",
         "groups.preload_radius",
         "protocol.preload_radius",
         ("sphere", "profile"),
     ),
     "apart": Flag(
-        "Or: gap between the undeformed surfaces at a start apart, in h0.",
+        "Or: a start apart, with this gap between the undeformed surfaces [h0].",
         "groups.apart",
         "protocol.start",
     ),
-    "rate": Flag(
-        "Retraction speed, in h0/tau0 (prony: h0 per unit of time); without it a test of --move "
-        "ends with the last move.",
-        "groups.rate",
-    ),
-    "material": _both(_MATERIAL, "material.model", metavar="MATERIAL"),
-    "law": _both(LAW, "interface.law", metavar="LAW"),
-    "thickness": _both(
-        "Thickness of the layer over beta = (R^2 dg0/E0*)^(1/3), of that under a punch over a0; a "
-        "half-space when left out.",
-        "layer.thickness",
-    ),
-    "bonded": _both(BONDED, "layer.poisson_ratio"),
     "move": Flag(_MOVE, "groups.moves", "protocol.moves", many=True, metavar="WORDS"),
     "stiffness": Flag(
-        "Stiffness of the machine, in 1.5 pi R dg0/h0; of a punch in the strength over h0.",
+        "Stiffness of the machine [1.5 pi R dg0/h0, of a punch strength/h0].",
         "groups.stiffness",
         "protocol.stiffness",
     ),
-    "radius": Flag(
-        'In SI, with units on all numbers: radius of the sphere or disc, "5 mm".',
-        si="shape.radius",
-        indenters=("sphere", "disc"),
-    ),
-    "half_width": Flag(
-        'In SI: half width of the punch, "1 mm".', si="punch.half_width", indenters=_PUNCH
-    ),
-    "speed": Flag('In SI: retraction speed, "10 um/s".', si="protocol.speed"),
-    "work_of_adhesion": Flag('In SI: dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"),
-    "equilibrium_gap": Flag(
-        'In SI: range of the attraction h0, "100 nm".', si="interface.equilibrium_gap"
-    ),
-    "strength": Flag(
-        'In SI, in place of --equilibrium-gap: largest tension, "100 kPa".', si="interface.strength"
-    ),
-    "rubbery_modulus": Flag(
-        'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; a passport is scaled to it.',
-        si="material.rubbery_modulus",
-    ),
-    "contact_modulus": Flag(
-        'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".',
-        si="material.contact_modulus",
-    ),
-    "poisson_ratio": Flag("In SI: Poisson ratio, 0.5 when left out.", si="material.poisson_ratio"),
-    "tau0": Flag('In SI: time of the solid, "100 ms"; not with a passport.', si="material.tau0"),
-    **OF_FILE,
+    "set": OF_FILE["set"],
 }
 
 

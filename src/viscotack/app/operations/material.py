@@ -44,7 +44,7 @@ class FitMaterial(Dma, Shifting):
 
     word: ClassVar = "material fit"
     outputs: ClassVar = (
-        main_file("Write the passport to this file; - is standard output.", ".toml"),
+        main_file("Write the passport.", ".toml"),
         picture(),
     )
 
@@ -201,14 +201,14 @@ class ConvertMaterial(_Converted):
 
     Without -o the passport goes to standard output.
 
-    Examples: viscotack material convert pdms-10-1 --temperature "0 degC" -o cold.toml, or:
-    viscotack material convert card.inp --from abaqus --pressure-unit MPa --time-unit s -o pad.toml
+    Example: viscotack material convert pdms-10-1 --temperature "0 degC" -o cold.toml
+
+    From Abaqus: viscotack material convert card.inp --from abaqus --pressure-unit MPa --time-unit s
+    -o pad.toml
     """
 
     word: ClassVar = "material convert"
-    outputs: ClassVar = (
-        main_file("Write to this file; - is standard output.", ".toml", usual="-"),
-    )
+    outputs: ClassVar = (main_file("Write the passport.", ".toml", usual="-"),)
     takes_own: ClassVar = True
 
     source: Any = named(
@@ -281,7 +281,7 @@ class ExportMaterial(_Converted):
     word: ClassVar = "material export"
     outputs: ClassVar = (
         main_file(
-            "Write to this file; - is standard output.",
+            "Write the input of the program.",
             *(".inp", ".txt", ".csv", ".dat", ".mac"),
             usual="-",
         ),

@@ -119,8 +119,8 @@ class Number(_Read):
 def number_of(card: Quantity, **more: Any) -> Number:
     """Return the option of a number that a card describes; keywords are those of `Number`."""
     words = f"{card.words[0].upper()}{card.words[1:]}"
-    words += f"; must {card.range}" if card.range else ""
-    words += f', for example "{card.example}".' if card.example else "."
+    words += f"; must {card.range}" if card.least is not None or card.most is not None else ""
+    words += f', "{card.example}".' if card.example else "."
     ends = {"above": card.above, "least": card.least, "most": card.most}
     return Number(words, unit=card.unit, example=card.example, **ends, **more)
 
@@ -302,7 +302,6 @@ class Output:
 
 def csv_file(words: str = "Write a table.", name: str = "csv") -> Output:
     """Declare a CSV table as output."""
-    words = f"{words.removesuffix('.')}; - is standard output."
     return Output(name, words, endings=(".csv", ".txt", ".dat"))
 
 

@@ -35,16 +35,17 @@ class Predict(Request):
     of their range the theory with the narrowest band that was verified for such a problem gives the
     force. Otherwise the command states which input is out of range; --exact simulates the problem.
 
-    One contact: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    In SI: viscotack predict sphere --radius "5 mm" --material pdms-10-1
+    --work-of-adhesion "150 mJ/m^2" --equilibrium-gap "200 nm" --preload-force "1.5 mN"
+    --speed "10 um/s"
+
+    By a file, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
+
+    A table in SI, each row a change of one problem: viscotack predict lens.toml cases.xlsx
+    --xlsx answers.xlsx
+
+    Without dimensions: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
     --preload 73 --rate 316.23
-
-    A flat punch on a layer: viscotack predict punch --size 64.85 --thickness 3.24 --cohesion 0.05
-    --modulus-ratio 0.1 --preload 1 --rate 10
-
-    In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
-
-    A table in SI, each row a change of one problem: viscotack predict lens.toml cases.xlsx --xlsx
-    answers.xlsx
 
     Thousands without dimensions: viscotack predict cases.csv --csv answers.csv
     """

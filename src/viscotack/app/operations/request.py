@@ -218,6 +218,8 @@ class Request(BaseModel):
         Whether it accepts user-defined laws, materials, shapes or observables.
     local : str
         Why it is not available over HTTP; "" where it is.
+    section : str
+        Section of the help with the options that the class itself declares.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -226,6 +228,7 @@ class Request(BaseModel):
     outputs: ClassVar[tuple[Output, ...]] = ()
     takes_own: ClassVar[bool] = False
     local: ClassVar[str] = ""
+    section: ClassVar[str] = "Options"
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the answer; implementations import numerical modules here, not on top."""

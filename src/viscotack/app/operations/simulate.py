@@ -41,20 +41,20 @@ _FILES = (
 class Simulate(Request):
     """Pull a sphere, a cone or another profile, a disc, or a punch on a layer off a soft body.
 
-    The problem is stated by dimensionless numbers, by numbers in SI, or by a file in SI.
-    E0 is the rubbery modulus, E0* = E0/(1 - nu^2), dg0 the work of adhesion, h0 the equilibrium
-    gap, sigma0 the strength of the interface, tau0 the time of the material, R the radius of the
-    sphere. A profile has an equivalent radius, and a disc of the radius a, with a sharp edge,
-    R = a sqrt(a E0*/dg0). A punch is in plane strain, a0 = pi E0* dg0/(2 sigma0^2). A shape of
-    your own is stated by a file, and by --with.
+    The contact is stated in SI, without dimensions, or by a file in SI. E0 is the rubbery modulus,
+    E0* = E0/(1 - nu^2), dg0 the work of adhesion, h0 the range of the attraction, tau0 the time of
+    the solid, R the radius of a sphere. A profile has an equivalent R; that of a disc of radius a,
+    with a sharp edge, is a sqrt(a E0*/dg0). A punch is in plane strain, with
+    a0 = pi E0* dg0/(2 strength^2). A shape of your own is stated by a file, and by --with.
 
-    By numbers: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    In SI: viscotack simulate sphere --radius "5 mm" --material pdms-10-1
+    --work-of-adhesion "150 mJ/m^2" --equilibrium-gap "2 um" --preload-force "1.5 mN"
+    --speed "10 um/s"
+
+    By a file: viscotack simulate examples/from_toml/cone.toml --plot cone.png
+
+    Without dimensions: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
     --preload 73 --rate 316.23
-
-    A punch: viscotack simulate punch --size 64.85 --thickness 3.24 --cohesion 0.05
-    --modulus-ratio 0.1 --preload 1 --rate 10
-
-    In SI by a file: viscotack simulate case examples/from_toml/cone.toml
     """
 
     word: ClassVar = "simulate"
@@ -101,7 +101,7 @@ class Simulate(Request):
 class Show(Request):
     """Show a saved result.
 
-    Prints its summary; writes its curve as a table or draws it if wanted.
+    Example: viscotack show lens.npz --plot lens.png
     """
 
     word: ClassVar = "show"

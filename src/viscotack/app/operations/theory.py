@@ -48,8 +48,8 @@ def _closed_form(
 class Jkr(OnLayer):
     """Detachment of an elastic sphere, forces of short range (JKR), from a half-space or a film.
 
-    Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
-    "50 mJ/m^2" --thickness "60 um" --bonded 0.49
+    Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa"
+    --work-of-adhesion "50 mJ/m^2" --thickness "60 um" --bonded 0.49
     """
 
     word: ClassVar = "theory jkr"
@@ -95,8 +95,8 @@ class Jkr(OnLayer):
 class OfDisc(OnLayer):
     """Detachment of a disc, the flat end of a cylinder, from a half-space or a film (Kendall).
 
-    Example: viscotack theory disc --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
-    "50 mJ/m^2" --strength "50 kPa" --thickness "200 um" --bonded 0.49
+    Example: viscotack theory disc --radius "1 mm" --contact-modulus "1 MPa"
+    --work-of-adhesion "50 mJ/m^2" --strength "50 kPa" --thickness "200 um" --bonded 0.49
     """
 
     word: ClassVar = "theory disc"
@@ -145,8 +145,10 @@ class OfDisc(OnLayer):
 class Maugis(Request):
     """Detachment of an elastic sphere, forces of any range (Maugis-Dugdale).
 
-    Example: viscotack theory maugis --radius "1 um" --contact-modulus "1 GPa" --work-of-adhesion
-    "50 mJ/m^2" --strength "20 MPa", or: viscotack theory maugis --tabor 1
+    In SI: viscotack theory maugis --radius "1 um" --contact-modulus "1 GPa"
+    --work-of-adhesion "50 mJ/m^2" --strength "20 MPa"
+
+    Without dimensions: viscotack theory maugis --tabor 1
     """
 
     word: ClassVar = "theory maugis"
@@ -467,8 +469,9 @@ class _OfTheory(Reduced):
 class PerssonBrener(_OfTheory):
     """Effective over intrinsic surface energy of a moving crack (Persson and Brener).
 
-    Example: viscotack theory persson-brener --modulus-ratio 0.1 --exponent 0.6 --speed 1, or:
-    viscotack theory persson-brener --modulus-table dma.csv --rubbery-modulus "1.2 MPa"
+    Example: viscotack theory persson-brener --modulus-ratio 0.1 --exponent 0.6 --speed 1
+
+    From a DMA: viscotack theory persson-brener --modulus-table dma.csv --rubbery-modulus "1.2 MPa"
     """
 
     word: ClassVar = "theory persson-brener"
@@ -477,8 +480,9 @@ class PerssonBrener(_OfTheory):
 class Greenwood(_OfTheory):
     """Effective over intrinsic surface energy of a moving crack with a cohesive zone (Greenwood).
 
-    Example: viscotack theory greenwood --material sls --modulus-ratio 0.1 --speed 1 --speed 10, or:
-    viscotack theory greenwood --modulus-table dma.csv --rubbery-modulus "1.2 MPa"
+    Example: viscotack theory greenwood --material sls --modulus-ratio 0.1 --speed 1 --speed 10
+
+    From a DMA: viscotack theory greenwood --modulus-table dma.csv --rubbery-modulus "1.2 MPa"
     """
 
     word: ClassVar = "theory greenwood"
@@ -504,8 +508,10 @@ class OfSteadyCrack(Reduced):
     Without --material the solid is a power law with --exponent, and the standard solid (sls)
     without it. zone_length is the length from the largest tension to a tenth of it.
 
-    Example: viscotack theory steady-crack --modulus-ratio 0.1 --speed 10, or: viscotack theory
-    steady-crack --modulus-ratio 0.1 --exponent 0.6 --law exponential:0.25 --speed -1 --json
+    Example: viscotack theory steady-crack --modulus-ratio 0.1 --speed 10
+
+    A crack that closes: viscotack theory steady-crack --modulus-ratio 0.1 --exponent 0.6
+    --law exponential:0.25 --speed -1
     """
 
     word: ClassVar = "theory steady-crack"

@@ -2,7 +2,7 @@
 
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 class OfFiles(Request):
     """Options that describe files of any instrument."""
 
+    section: ClassVar = "What the files do not say"
+
     format: str | None = option("Format of the files, if it is not detected.")
     time_unit: str | None = option("Unit such as s, if not in the file.", example="s")
     decimal: str | None = option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
@@ -32,6 +34,8 @@ class OfFiles(Request):
 
 class Dma(OfFiles):
     """Options that describe the files of a DMA or another test of a material."""
+
+    section: ClassVar = OfFiles.section
 
     test: Literal["dma", "relaxation", "creep"] | None = option(
         "Kind of test; default: by the columns."
@@ -87,6 +91,8 @@ def _constants(value: Any) -> tuple[float, float]:
 class ShiftLaw(Request):
     """Options for a known shift of tests at several temperatures; temperatures in K."""
 
+    section: ClassVar = "Shift with temperature"
+
     reference_temperature: float | None = number(
         'Temperature of the master curve, "20 degC"; needed for any shift.', "K"
     )
@@ -138,6 +144,8 @@ class ShiftLaw(Request):
 
 class Shifting(ShiftLaw):
     """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
+
+    section: ClassVar = ShiftLaw.section
 
     shift_by: Literal["both", "storage", "loss", "tan"] | None = option(
         "Quantity that must superpose where shifts are fitted to the overlap. Default without "
@@ -199,6 +207,8 @@ def _sign(words: str) -> Any:
 
 class Rig(OfFiles):
     """A request with files of a rig, and what describes them and the rig itself."""
+
+    section: ClassVar = OfFiles.section
 
     files: tuple[Path, ...] = input_file(
         "Files of the rig: text with units, a testXpert workbook, .nid, .jpk-force or .ibw; a "
