@@ -172,7 +172,7 @@ def _stated_in(flag: Flag) -> str:
         return "The contact in SI, numbers with units" if flag.si else "The contact in a file"
     if not flag.si:
         return "The contact without dimensions"
-    return "The contact, in SI or as a multiple [of this]"
+    return "The contact, in SI or without dimensions [in these units]"
 
 
 def _run(kind: type[Request], said: dict[str, Any]) -> None:
