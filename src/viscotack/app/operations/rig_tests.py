@@ -130,7 +130,7 @@ def _named_temperatures(found: Any) -> tuple[str, ...]:
     return (
         f"the names of files contain temperatures from {min(named) - 273.15:.4g} to "
         f"{max(named) - 273.15:.4g} C, and tests are not separated by them; add "
-        "--temperature-in-name",
+        "`temperature_in_name`",
     )
 
 

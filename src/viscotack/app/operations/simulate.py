@@ -154,7 +154,7 @@ def _not_met(result: "Result") -> str:
     name, error = next((n, stated[n]) for n in ("force", "time") if n in stated)
     return (
         f"viscotack: the estimated error of the {name} is {error:.2e}, above the required "
-        f"{result.accuracy:g}; repeat with a smaller --accuracy"
+        f"{result.accuracy:g}; repeat with a smaller `accuracy`"
     )
 
 
