@@ -132,6 +132,18 @@ def test_a_history_is_that_of_a_simulation():
     assert found.hysteresis == pytest.approx(loop, rel=0.03)
 
 
+def test_a_slow_pull_after_a_fast_approach_is_that_of_a_simulation(monkeypatch):
+    # the edge still closes when the drive turns, and both directions hold for a while
+    groups = vt.Groups(
+        24.0, standard(0.04), vt.Apart(20.0), 9.0, moves=(vt.Approach(110.0, vt.AtDepth(19.0)),)
+    )
+    found = vt.crack_contact(groups)
+    result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=5e-3)
+    assert found.pull_off_force == pytest.approx(vt.pull_off(result).force, rel=found.band)
+    monkeypatch.setattr(history, "_GROWTH", 1.07)
+    assert vt.crack_contact(groups).pull_off_force == pytest.approx(found.pull_off_force, rel=6e-3)
+
+
 @pytest.mark.parametrize("hold", ["depth", "force"])
 def test_after_a_very_long_dwell_the_contact_has_relaxed(hold):
     # a dwell of a million times, then a jump of a few 1e-10 of one: steps were round-off
