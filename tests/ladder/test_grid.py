@@ -189,6 +189,12 @@ def test_a_rough_elastic_map_loses_energy_only_in_jumps():
     assert np.abs(balance).max() < 1e-3 * np.abs(found.work).max()
 
 
+def test_a_map_without_neighbours_opens_smoothly_with_short_steps():
+    kind = {"hurst": 0.8, "rms_height": 1.5e-6, "seed": 3, "shortest": 8e-5, "periodic": False}
+    problem = rough(self_affine(16, 1e-5, **kind))
+    assert not pull(problem, accuracy=2e-5, estimate_error=False).events
+
+
 def test_faster_pulls_of_a_rough_map_take_more():
     slow, fast = (
         pull(rough(protocol=vt.Retraction(start=vt.AtDepth(2e-6), speed=v)), estimate_error=False)
@@ -200,7 +206,7 @@ def test_faster_pulls_of_a_rough_map_take_more():
 def test_a_load_is_the_same_on_larger_pixels():
     contact = rough(self_affine(64, 6e-6, hurst=0.3, rms_height=2e-6, seed=5)).contact
     assert contact.coarser().unit == contact.every_second(1, 0).unit == contact.unit
-    assert contact.coarser().curvature != contact.curvature
+    assert contact.coarser().travel != contact.travel
 
 
 @pytest.mark.parametrize("solid", [ELASTIC, VISCOUS])

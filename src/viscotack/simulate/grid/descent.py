@@ -209,6 +209,12 @@ def equilibrium(
         missing = float(np.abs(residual).sum()) + abs(unheld)
         scale = max(float(np.abs(tension).sum()), _LEAST * law.strength * gap.size)
         if iteration > 1 and stable and missing <= tolerance * scale:
+            if not plane.periodic:
+                # what is still unbalanced beyond the map would be a load without its energy
+                v = compliance * plane.moved(plane.within(held))
+                gap = np.maximum(free - depth + plane.within(v), GONE)
+                energies, tension = energy_and_traction(law, gap)
+                energy = float(energies.sum())
             return found(iteration, True)
         curvature = law.stiffness(gap).astype(np.float32).reshape(plane.shape)
         tangent = _Tangent(plane, *single, compliance, curvature, spring)

@@ -91,12 +91,6 @@ class MapContact:
         """Area of a pixel [l^2]."""
         return self.plane.pixel**2
 
-    @cached_property
-    def curvature(self) -> float:
-        """Root mean square of the curvature of the map [h0/l^2]."""
-        gap = self.rigid_gap.reshape(self.plane.shape)
-        return rms_curvature(gap, self.plane.pixel, self.plane.periodic)
-
     @property
     def unit(self) -> float:
         """Force [output unit] per force on a pixel [dg l^2/h0]."""
@@ -105,7 +99,9 @@ class MapContact:
     @cached_property
     def travel(self) -> float:
         """Depth [h0] over which a contact of an asperity changes."""
-        drawn = 0.0 if self.curvature == 0 else self.curvature ** (-1 / 3)
+        gap = self.rigid_gap.reshape(self.plane.shape)
+        curvature = rms_curvature(gap, self.plane.pixel, self.plane.periodic)
+        drawn = 0.0 if curvature == 0 else curvature ** (-1 / 3)
         return self.span + min(drawn, float(np.ptp(self.rigid_gap)))
 
     @property

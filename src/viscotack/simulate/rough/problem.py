@@ -34,7 +34,6 @@ from viscotack.model.problem.outputs import time_unit
 from viscotack.model.problem.rough_case import RoughCase
 from viscotack.model.protocol import Approach, AtRadius, Retract, Retraction, Units
 from viscotack.model.surfaces import HeightMap, Roughness, roughness
-from viscotack.model.surfaces.heights import rms_curvature
 from viscotack.model.tables import Reading
 from viscotack.model.traction import Traction, effective_range, has_rest, softening
 from viscotack.simulate.grid.map_contact import MapContact, unit_of_force
@@ -203,8 +202,7 @@ class RoughProblem:
             self.body.reduced(along),
             surface.periodic,
         )
-        law, gap = self.traction.reduced(), rigid.reshape(plane.shape)
-        curvature = rms_curvature(gap, plane.pixel, plane.periodic)
+        law, curvature = self.traction.reduced(), self.roughness.rms_curvature * along**2 / h0
         unit = unit_of_force(curvature, law, rigid.size * plane.pixel**2)
         return MapContact(plane, rigid, law, unit, beyond, 1 + top / h0)
 
