@@ -8,7 +8,7 @@ from scipy import fft
 
 import viscotack as vt
 from test_rough_checkpoint import problem as rough
-from viscotack.simulate.grid import plane
+from viscotack.simulate.grid import plane, run
 from viscotack.simulate.rough import pull, pulling
 
 
@@ -86,6 +86,8 @@ def device(monkeypatch):
         irfft2=lambda x, s, overwrite_x: OnDevice(fft.irfft2(x.held, s=s)),
     )
     monkeypatch.setattr(plane, "libraries", lambda device: (library, transforms))
+    # a start is refined from larger pixels
+    monkeypatch.setattr(run, "_COARSEST", 8)
 
 
 def problem(periodic, start, body):
@@ -119,7 +121,7 @@ def test_without_cupy_a_device_is_refused():
 
 
 def test_a_map_that_memory_does_not_hold_is_refused(monkeypatch):
-    monkeypatch.setattr(pulling, "memory", lambda device: 16 * 16 * 450.0)
+    monkeypatch.setattr(pulling, "memory", lambda device: 16 * 16 * 425.0)
     stated = problem(True, False, vt.HalfSpace())
     pulling.check_memory(stated.contact.plane, 1)
     with pytest.raises(vt.InputError):

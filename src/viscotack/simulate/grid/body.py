@@ -16,7 +16,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from viscotack.model.materials import Modes
-from viscotack.simulate.body import Memory, Rates, Step, Trial
+from viscotack.simulate.body import Rates, Step, Trial
 from viscotack.simulate.equilibrium import GONE
 from viscotack.simulate.grid.descent import Found, equilibrium
 from viscotack.simulate.grid.map_contact import MapContact
@@ -29,44 +29,48 @@ from viscotack.simulate.steps import MarchState, Run
 _UNBALANCED = 3e-5
 
 
-class GridMemory(Memory):
-    """Displacement and force of every mode on the device of the grid, one mode after the other.
+@dataclass(frozen=True, eq=False)
+class GridMemory:
+    """Forces of every mode on the device of the grid, and their products with displacements.
 
-    Fields of all modes at once would take most of the memory of a run.
+    The displacements d are those of the relaxed body under the forces z of the mode, so that energy
+    and heat follow from products, whose recursion is that of the forces.
     """
+
+    force: npt.NDArray  # z, shape (M, N)
+    present: npt.NDArray  # z e of each mode, with the present displacement e of the surface
+    own: npt.NDArray  # z d
 
     def advanced(
         self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray
     ) -> GridMemory:
         """Return the memory after a step."""
+        found, part = np.empty_like(self.force), np.empty_like(F)
+        # fields of all modes at once would take most of the memory of a run
+        for j, (decay, (begin, end)) in enumerate(
+            zip(s.decay.tolist(), s.drive.tolist(), strict=True)
+        ):
+            mode = np.multiply(self.force[j], decay, out=found[j])
+            mode += np.multiply(F, begin, out=part)
+            mode += np.multiply(F1, end, out=part)
 
-        def recur(field: npt.NDArray, first: npt.NDArray, last: npt.NDArray) -> npt.NDArray:
-            found, part = np.empty_like(field), np.empty_like(first)
-            for j, (decay, (begin, end)) in enumerate(
-                zip(s.decay.tolist(), s.drive.tolist(), strict=True)
-            ):
-                mode = np.multiply(field[j], decay, out=found[j])
-                mode += np.multiply(first, begin, out=part)
-                mode += np.multiply(last, end, out=part)
-            return found
+        def recur(field: npt.NDArray, first: Any, last: Any) -> npt.NDArray:
+            return s.decay * field + s.drive[:, 0] * first + s.drive[:, 1] * last
 
-        return GridMemory(recur(self.displacement, e, e1), recur(self.force, F, F1))
+        later = on_host(self.force @ e1)
+        before, between, after = float(e @ F), float(e1 @ F), float(e1 @ F1)
+        present = recur(later, between, after)
+        # products of the new d with z, F and the new F
+        own = recur(self.own, self.present, later), recur(self.present, before, between), present
+        return GridMemory(found, present, recur(*own))
 
     def heat(
         self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray
     ) -> npt.NDArray:
-        """Return the heat of each mode in a step, on the host."""
-        dF = F1 - F
-        start, mixed = np.zeros(len(s.times)), np.zeros(len(s.times))
-        for j in range(len(s.times)):
-            y = e - self.displacement[j]
-            start[j], mixed[j] = float(y @ (F - self.force[j])), float(y @ dF)
-        return s.heat(start, mixed, float((e1 - e) @ dF))
-
-    def stored(self, weights: npt.NDArray) -> float:
-        """Return the elastic energy in the springs of the modes."""
-        both = zip(weights.tolist(), self.displacement, self.force, strict=True)
-        return 0.5 * sum(weight * float(d @ z) for weight, d, z in both)
+        """Return the heat of each mode in a step."""
+        de, dF = e1 - e, F1 - F
+        start = float(e @ F) - 2 * self.present + self.own
+        return s.heat(start, float(e @ dF) - on_host(self.force @ de), float(de @ dF))
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +86,7 @@ class GridState:
     gap: npt.NDArray
     relaxed: npt.NDArray  # e: displacement of the relaxed solid under this traction
     nodal: npt.NDArray  # F: forces on the pixels
-    memory: Memory
+    memory: GridMemory
     rates: Rates
     moved: npt.NDArray
     moving: npt.NDArray | None = None
@@ -104,7 +108,8 @@ class GridBody:
         """Return the relaxed state, in which every mode is in equilibrium."""
         e, many = self.contact.plane.within(found.moved), (len(self.weights), 1)
         force = self.contact.area * found.held
-        memory = GridMemory(np.tile(e, many), np.tile(force, many))
+        product = np.full(many[0], float(e @ force))
+        memory = GridMemory(np.tile(force, many), product, product)
         seen = self._seen(0.0, found, e, force, memory)
         return GridState(seen, self.contact, found.gap, e, force, memory, _at_rest(e), found.moved)
 
@@ -169,7 +174,7 @@ class GridBody:
         return 0.0
 
     def _seen(
-        self, time: float, found: Found, e: npt.NDArray, force: npt.NDArray, memory: Memory
+        self, time: float, found: Found, e: npt.NDArray, force: npt.NDArray, memory: GridMemory
     ) -> Snapshot:
         """Return the recorded quantities of an instant."""
         contact, depth, unit = self.contact, found.depth, self.contact.unit
@@ -180,7 +185,7 @@ class GridBody:
             depth=depth,
             edge=float(np.sqrt(touching * contact.area / np.pi)) if touching else np.nan,
             force=contact.force_under(found.tension, depth),
-            elastic=unit * (instant + memory.stored(self.weights)),
+            elastic=unit * (instant + 0.5 * float(self.weights @ memory.own)),
             interface=unit * contact.area * found.energy + contact.tail_energy(depth),
         )
 

@@ -169,8 +169,8 @@ def run_arrays(run: GridRun, at: MarchState, counted: tuple[int, int, int]) -> A
         "frames": _table(frames, _OF_FRAME),
         "gaps": np.array([frame.gap for frame in frames]),
         "pressures": np.array([frame.pressure for frame in frames]),
-        "displacement": on_host(state.memory.displacement),
         "force": on_host(state.memory.force),
+        "products": np.array([state.memory.present, state.memory.own]),
         "rate": on_host(state.rates.relaxed),
     }
     found |= {name: on_host(getattr(state, name)) for name in _FIELDS_OF_STATE}
@@ -208,7 +208,7 @@ def continued(run: GridRun, arrays: Arrays) -> MarchState:
     state: Any = GridState(
         history.snapshots[-1],
         contact,
-        memory=GridMemory(field(arrays["displacement"]), field(arrays["force"])),
+        memory=GridMemory(field(arrays["force"]), *arrays["products"]),
         rates=Rates(field(arrays["rate"]), 0.0, np.zeros(1), about["known"]),
         moving=field(arrays["moving"]) if "moving" in arrays else None,
         **fields,

@@ -66,7 +66,7 @@ def _refined(contact: MapContact, start: Start) -> Found:
     plane = contact.plane
     coarse = contact.coarser()
     found = relaxed(coarse, start)
-    rows, columns = (np.minimum(np.arange(n) // 2, n // 2 - 1) for n in plane.shape)
+    rows, columns = (plane.field(np.minimum(np.arange(n) // 2, n // 2 - 1)) for n in plane.shape)
     held = found.held.reshape(coarse.plane.shape)[rows[:, None], columns]
     found = replace(found, moved=plane.moved(held))
     if isinstance(start, AtForce):

@@ -50,7 +50,7 @@ _FLOOR = 0.4
 # tension: what pixels do not know of the summits between them, if no run on larger ones sees it.
 _FEW = 2.8
 # Bytes per pixel, and per pixel and mode of the solid, of periodic and of other maps.
-_BYTES = {True: (400, 50), False: (850, 55)}
+_BYTES = {True: (400, 25), False: (850, 28)}
 # Share of the main run in the total work.
 _MAIN = 0.65
 
