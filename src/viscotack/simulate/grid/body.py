@@ -69,8 +69,8 @@ class GridMemory:
     ) -> npt.NDArray:
         """Return the heat of each mode in a step."""
         de, dF = e1 - e, F1 - F
-        start = float(e @ F) - 2 * self.present + self.own
-        return s.heat(start, float(e @ dF) - on_host(self.force @ de), float(de @ dF))
+        mixed = float(e @ dF) - on_host(self.force @ de)
+        return s.heat(float(e @ F) - 2 * self.present + self.own, mixed, float(de @ dF))
 
 
 @dataclass(frozen=True, eq=False)

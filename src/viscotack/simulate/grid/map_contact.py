@@ -143,12 +143,3 @@ class MapContact:
         return np.maximum(
             self.apex + (half / np.cos(_ANGLES)) ** 2 / (2 * self.beyond) - depth, 0.5
         )
-
-
-def unit_of_force(curvature: float, law: Traction, area: float) -> float:
-    """Return a unit of force [dg l^2/h0]: the pull-off of one asperity by JKR, or of the whole map.
-
-    `curvature` is the root mean square of that of the map [h0/l^2], `area` that of the map [l^2].
-    """
-    whole = law.strength * area
-    return whole if curvature == 0 else min(1.5 * np.pi / curvature, whole)

@@ -36,7 +36,7 @@ from viscotack.model.protocol import Approach, AtRadius, Retract, Retraction, Un
 from viscotack.model.surfaces import HeightMap, Roughness, roughness
 from viscotack.model.tables import Reading
 from viscotack.model.traction import Traction, effective_range, has_rest, softening
-from viscotack.simulate.grid.map_contact import MapContact, unit_of_force
+from viscotack.simulate.grid.map_contact import MapContact
 from viscotack.simulate.grid.plane import Plane
 
 # Length of the zone in l, of a law as long as Lennard-Jones.
@@ -203,7 +203,8 @@ class RoughProblem:
             surface.periodic,
         )
         law, curvature = self.traction.reduced(), self.roughness.rms_curvature * along**2 / h0
-        unit = unit_of_force(curvature, law, rigid.size * plane.pixel**2)
+        unit = law.strength * rigid.size * plane.pixel**2  # pull-off of the whole map
+        unit = min(1.5 * np.pi / curvature, unit) if curvature else unit  # or of one asperity, JKR
         return MapContact(plane, rigid, law, unit, beyond, 1 + top / h0)
 
     @cached_property
