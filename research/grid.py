@@ -149,7 +149,8 @@ def judge(inside, about, found, **off):
     """Print errors beside the stated ones, and note the ratio of the stated to the true."""
     stated = found.error_estimate or {}
     for name, value in off.items():
-        inside[name].append(stated[name] / max(abs(value), 1e-9))
+        # whole maps in contact have no error of the area
+        inside[name].append(stated[name] / abs(value) if value else np.inf)
     pairs = [f"{name} {100 * x:+.3f} of {100 * stated[name]:.3f} %" for name, x in off.items()]
     print(f"{about}: {', '.join(pairs)}", flush=True)
 
@@ -157,10 +158,10 @@ def judge(inside, about, found, **off):
 def summed(inside):
     """Print how many errors are within the stated ones, and how far these are above."""
     for name, found in inside.items():
-        within = np.mean(np.array(found) >= 1)
+        ratio = np.array(found)
         print(
-            f"{name}: {within:.0%} of {len(found)} within the stated error, "
-            f"{np.median(found):.1f} times the true one in the median"
+            f"{name}: {np.mean(ratio >= 1):.0%} of {len(found)} within the stated error, "
+            f"{np.median(ratio[np.isfinite(ratio)]):.1f} times the true one in the median"
         )
 
 
@@ -220,7 +221,6 @@ def rough(given):
 
 def size(given):
     """Show processor time and memory of one pull by the number of pixels."""
-    print("pixels  CPU s  s per inner iteration  peak memory MB")
     for side in (64, 128, 256, 512):
         if side > given.pixels:
             break
@@ -231,7 +231,7 @@ def size(given):
         memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
         many = found.statistics["newton_iterations"]
         print(
-            f"{side:4d}^2 {spent:7.1f} {1e3 * spent / many:8.1f} ms per iteration of Newton, "
+            f"{side:4d}^2 {spent:7.1f} s, {1e3 * spent / many:8.1f} ms per iteration of Newton, "
             f"{found.statistics['steps']:.0f} steps, {memory:.0f} MB, "
             f"{found.pull_off_stress / 1e3:.3f} kPa",
             flush=True,
