@@ -205,6 +205,11 @@ def test_jkr_overestimates_the_work_of_a_contact_that_had_relaxed():
     jkr = 0.801822 * gamma ** (5 / 3) * mu * np.pi ** (2 / 3)
     assert gamma > 5
     assert found.work_to_pull_off < 0.3 * jkr
+    # and its work is the area of the curve in tension
+    until = slice(int(found.force.argmin()), None, -1)
+    x = np.linspace(found.depth[until][0], found.depth[0], 1_000_001)
+    tension = np.minimum(np.interp(x, found.depth[until], found.force[until]), 0)
+    assert found.work_to_pull_off == pytest.approx(-np.trapezoid(tension, x), rel=1e-5)
     # while its force is that of the energy
     assert found.pull_off_force == pytest.approx(gamma, rel=0.02)
 

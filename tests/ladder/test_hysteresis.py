@@ -120,12 +120,15 @@ def test_a_contact_with_a_steady_crack_has_the_same_hysteresis():
     assert answer.loop is cycle.loop is Loop.APART
     assert cycle.hysteresis == pytest.approx(answer.hysteresis, rel=1e-12, abs=0)
     rub = (Approach(50.0, AtDepth(150.0)), Retract(50.0, AtDepth(100.0)))
-    rubbed = sphere(AtDepth(100.0), *rub, material=SOLID, tabor=300.0)
-    answer = crack_contact(rubbed)
-    (cycle,) = cycles(solve(rubbed))
-    assert answer.loop is cycle.loop is Loop.DEPTH
-    assert cycle.hysteresis == pytest.approx(answer.hysteresis, rel=1e-12, abs=0)
-    assert cycle.hysteresis > 0
+    # after a rest the force has returned too, but what the solid stores is not known
+    for moves in (rub, (*rub, Dwell(1e4, hold="depth"))):
+        rubbed = sphere(AtDepth(100.0), *moves, material=SOLID, tabor=300.0)
+        answer = crack_contact(rubbed)
+        (cycle,) = cycles(solve(rubbed))
+        assert answer.loop is cycle.loop is Loop.DEPTH
+        assert cycle.hysteresis == pytest.approx(answer.hysteresis, rel=1e-12, abs=0)
+        assert cycle.hysteresis > 0
+    assert abs(answer.force[-1] - answer.force[0]) < 1e-3 * np.ptp(answer.force)
 
 
 def test_the_work_of_a_punch_is_that_of_its_result():

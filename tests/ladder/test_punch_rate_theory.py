@@ -169,6 +169,9 @@ def test_fast_retraction_tends_to_the_strength_or_to_the_glassy_layer(theory):
     assert np.all(found.stress <= 9e4)
     assert found.amplification[0] == pytest.approx((9e4 / elastic[0]) ** 2, rel=1e-12, abs=0)
     np.testing.assert_allclose(found.ligament, 5e-3, rtol=1e-3)
+    # the depth of a layer that does not recede is linear in the stress
+    stiffness = crossover.stiffness(thickness, half_width=5e-3, contact_modulus=4e6 / 3, base=FREE)
+    np.testing.assert_allclose(found.depth, -2 * 5e-3 * found.stress / stiffness, rtol=2e-3)
 
 
 def test_pull_off_is_near_the_simulated_one():
@@ -196,6 +199,9 @@ def test_map_has_the_regimes_of_the_slow_and_of_the_fast_pad():
     assert slow == ["cohesive", thin, thin, thin, thin, thick]
     assert quick == ["cohesive", "cohesive", "cohesive", thin, thin, thick]
     np.testing.assert_allclose(found.boundaries, (b0, fast, b1))
+    # in a half-plane the strength is reached at a/a0 works of adhesion, however thick
+    largest = unloading.largest_amplification([b1, 3 * b1], PAD)
+    np.testing.assert_allclose(largest, 5e-3 / PAD.fracture_length, rtol=1e-12)
     np.testing.assert_array_equal(
         found.stress, unloading.pull_off([1e-11, 1e6], PAD, LAW, thickness=b[:, None]).stress
     )

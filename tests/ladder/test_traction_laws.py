@@ -127,11 +127,19 @@ def test_beyond_its_end_a_table_has_nothing_however_steeply_it_ends():
         ([1, 2, 3, 4], [1, 2, 1, 0], "must begin with repulsion"),
         ([1, 2, 3, 4], [-1, 0, 1, 0.5], "must be zero at the last gap, got 0.5; add a row"),
         ([1, 2, 3, 4, 5], [-1, 1, -1, 1, 0], "must change its sign once"),
+        ([1, 2, 3], [-1, 1, 0], "at least four gaps"),
     ],
 )
 def test_a_table_that_is_no_law_is_refused(gap, traction, words):
     with pytest.raises(ValueError, match=words):
         vt.Tabulated.of_points(gap, traction)
+
+
+@pytest.mark.parametrize(("wider", "stronger"), [(1.0, 2.0), (1.1, 1 / 1.1)])
+def test_points_of_another_work_or_equilibrium_gap_than_1_are_refused(wider, stronger):
+    points = tuple((wider * gap, stronger * traction) for gap, traction in TABLE.points)
+    with pytest.raises(ValueError, match="zero traction at gap 1 and work 1"):
+        vt.Tabulated(WORK, RANGE, points)
 
 
 @pytest.mark.parametrize(
