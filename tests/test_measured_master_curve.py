@@ -43,6 +43,10 @@ def test_exact_data_give_back_the_shift(by):
     # pieces of a curve that is no polynomial
     assert_allclose(found.values, SHIFT.log10_shift(CHAMBER), atol=3e-3)
     assert found.vertical == ()
+    # a thermometer that is off by 0.2 K, here and at the reference
+    slope = SHIFT.c1 * SHIFT.c2 / (SHIFT.c2 + CHAMBER - ROOM) ** 2
+    kelvins = np.where(CHAMBER == ROOM, 0.0, 0.2 * np.hypot(slope, slope[-1]))
+    assert_allclose(found.uncertainty, kelvins, rtol=0.15, atol=5e-3)
 
 
 def test_the_variance_of_a_shift_is_a_jackknife_over_four_blocks():

@@ -174,6 +174,12 @@ def test_uncertain_times_widen_a_prediction(tmp_path):
         np.hypot(up, own), rel=1e-3
     )
     assert "uncertainty of 0.15 decades" in wide.why
+    case = tmp_path / "lens.toml"
+    record = vt.ask(
+        "uncertainty", problem=case, scatter=("sphere.radius 1 %",), samples=16
+    ).record()
+    (times,) = (row for row in record["inputs"] if row["input"] == "shift")
+    assert times["deviation"] == pytest.approx(0.15 * np.log(10))
 
 
 def of_intervals(*intervals, level=0.9):
@@ -218,6 +224,11 @@ def test_an_interval_moves_with_its_time_and_keeps_its_open_ends():
     assert _moved(("tau0", 0.0, 0.2), 0.1, 30.0, 0.0) == ("tau0", 0.0, pytest.approx(6.0))
     assert _moved(("tau0", 0.05, np.inf), 0.1, 30.0, 0.0) == ("tau0", pytest.approx(1.5), np.inf)
     assert _moved(("exponent", 0.1, 0.2), 0.1, 30.0, 0.5) == ("exponent", 0.1, 0.2)
+    # an interval of 80 % by 1.2816 of the 0.15 decades by which the table is uncertain at 0 C
+    told = Evidence(numbers=9, constants=4, level=0.8, intervals=(("tau0", 0.05, 0.2),))
+    ((_, *ends),) = replace(uncertain(), evidence=told).moved_to(273.15).evidence.intervals
+    half = np.hypot(np.log(2), 1.2816 * 0.15 * np.log(10))
+    assert ends == pytest.approx(0.1 * 10**1.2 * np.exp([-half, half]), rel=1e-4)
 
 
 def test_a_passport_is_used_up_to_a_kelvin_beside_its_temperatures():

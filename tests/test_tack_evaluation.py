@@ -12,7 +12,7 @@ import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
 from viscotack.lab.tack import Measured, evaluation
-from viscotack.lab.tack.baseline import extremum
+from viscotack.lab.tack.baseline import Baseline, extremum
 from viscotack.theory import jkr
 
 PULL_OFF = jkr.pull_off(**tack_files.SPHERE)
@@ -53,6 +53,10 @@ def test_a_machine_that_yields_is_taken_off_the_depth():
     unsure = only(test, compliance=compliance, compliance_uncertainty=2e-5)
     assert unsure.depth_at_pull_off.uncertainty > cycle.depth_at_pull_off.uncertainty
     assert unsure.work_to_pull_off.uncertainty >= cycle.work_to_pull_off.uncertainty
+    # at the end of the dwell by the error of the compliance times the force there
+    by_rig = 2e-5 * cycle.force[cycle.segments.retract]
+    both = np.hypot(cycle.preload_depth.uncertainty, by_rig)
+    assert unsure.preload_depth.uncertainty == pytest.approx(both, rel=1e-6)
     (refusal,) = tack.evaluate(record(test), compliance=1.0).refused
     assert "compliance" in refusal.reason
 
@@ -226,7 +230,7 @@ def test_noise_behind_a_soft_machine_makes_no_work_certain_by_chance():
     assert np.all(np.abs([one.value - true for one in found]) < 3 * uncertainty)
 
 
-def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
+def test_the_wander_of_the_zero_is_in_the_uncertainties_of_force_and_depth():
     ratios = []
     for seed in range(10):
         rng = np.random.default_rng([9, seed])
@@ -236,9 +240,23 @@ def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
         noise = 0.002 * rng.standard_normal(test.time.size)
         force = test.force + test.range * (0.02 * walk + noise)
         record = tack.TackRecord(test.time, force, test.depth, into=1)
-        found = rig_signals.judged(record, test.truth)
-        ratios.append(found[rig_signals.QUANTITIES.index("preload_depth")][1])
-    assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 1.1
+        ratios.append([ratio for _, ratio in rig_signals.judged(record, test.truth)])
+    size = np.sqrt(np.mean(np.square(ratios), axis=0))
+    assert np.all((0.4 < size) & (size < 1.1))
+
+
+@pytest.mark.parametrize(("apart", "other", "doubted"), [(3.9, 1, 0), (4.1, 1, 1), (4.1, 2.1, 0)])
+def test_a_zero_is_doubted_by_that_of_the_outer_points_from_four_deviations_on(
+    apart, other, doubted
+):
+    def flat(level, error):
+        first = np.eye(35)[0]
+        return Baseline(level * first, error**2 * np.outer(first, first), 0.0, (0, 1), (0, 1))
+
+    # four of its own, or two of those of the other
+    found = flat(0.0, 1.0).doubted(flat(apart, other), 0.0, 0.5)
+    expected = np.hypot(1.0, doubted * apart)
+    assert found.uncertainty(np.zeros(1), np.zeros(1)) == pytest.approx(expected)
 
 
 def pulled_film(tail, step):

@@ -117,7 +117,7 @@ def test_the_band_is_that_of_direct_predictions(lens):
     [
         ({}, {}, "deviation"),
         ({RADIUS: 2.0}, {}, "0.5"),
-        ({RADIUS: 0.1}, {"samples": 3}, "samples"),
+        ({RADIUS: 0.1}, {"samples": 5}, "at least 6 samples"),
         ({"geometry.radios": 0.1}, {}, "radios"),
         ({"protocol.stiffness": 0.1}, {}, "not stated"),
     ],
