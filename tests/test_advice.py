@@ -36,6 +36,8 @@ def test_the_regime_follows_the_rate(rate, regime, use):
     advice = vt.advise(groups(rate))
     assert (advice.rate_regime, advice.use, advice.adhesion) == (regime, use, "jkr")
     assert estimate(advice, "simulation").applies
+    # of a sphere of the radius R/k and the modulus E/k
+    assert advice.glassy_tabor == pytest.approx((0.1**-1 * 0.1**2) ** (1 / 3) * 3.24)
 
 
 def assert_as_good_as_stated(case, advice):

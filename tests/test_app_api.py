@@ -1,6 +1,7 @@
 """The API in its own process: answers, jobs, limits, files that are sent, and who may ask."""
 
 import json
+from dataclasses import replace
 from multiprocessing import active_children
 
 import pytest
@@ -101,12 +102,16 @@ def test_no_file_of_the_server_is_read(ask):
 
 @pytest.mark.parametrize("end", ["cancelled", "failed"])
 def test_after_a_job_that_is_cancelled_or_whose_process_crashes_the_next_is_served(
-    ask, engine, end
+    ask, engine, end, monkeypatch
 ):
     # which would take minutes
     id = ask.job("simulate", accuracy=1e-6).json()["id"]
     while ask("GET", f"/api/jobs/{id}").json()["state"] == "queued":
         pass
+    # as many as may wait or run
+    with monkeypatch.context() as patch:
+        patch.setattr(engine, "limits", replace(engine.limits, jobs=1))
+        assert ask.job("simulate").status_code == 429
     if end == "cancelled":
         assert ask("DELETE", f"/api/jobs/{id}").json()["state"] == end
     else:

@@ -173,6 +173,12 @@ def test_held_loads_lie_between_the_elastic_and_the_instantaneous_force(short):
     assert np.all(np.diff(loads) < 0)
     assert loads[-1] == pytest.approx(float(elastic), rel=1e-3)
     assert loads[0] < elastic / RUBBER.modulus_ratio
+    # one standard deviation is a hundredth, and nine of ten lie in the interval
+    held = short.held(Pad("rubber", 1e-3, 2e-3, 1.0), 1.0)
+    ends = np.array([held.low, held.high]) / loads[2]
+    assert ends == pytest.approx(
+        1 + 0.01 * NormalDist().inv_cdf(0.95) * np.array([-1, 1]), abs=1e-5
+    )
     with pytest.raises(vt.OutOfRange, match="cohesive zone"):
         held_load(replace(problem, traction=replace(LAW, equilibrium_gap=1e-5)), 1.0)
 

@@ -64,6 +64,15 @@ def test_the_limits_of_a_film_are_those_of_jkr(thin):
     assert abs(forces[0] / forces[1] - 1) == pytest.approx(0.05, rel=1e-3)
 
 
+def test_a_film_that_cannot_be_compressed_is_sheared_by_what_flows_out_under_the_sphere(thin):
+    # the slope at the base of the parabola that carries the displaced volume sideways
+    a, b = 4 * np.pi ** (1 / 3), 0.5
+    r = np.linspace(1e-3, a, 10_000)
+    volume = np.pi * r**2 * (a**2 - r**2) / 4
+    strain = np.max(3 * volume / (2 * np.pi * r * b**2))
+    assert thin.contact.film_strain == pytest.approx(strain, rel=1e-6)
+
+
 def test_a_thick_film_saturates_as_a_half_space_and_a_thin_one_sooner(thin):
     thick = vt.advise(groups(vt.Layer(100.0, GLUED))).contact
     assert thick.over_half_space == pytest.approx(1.0, rel=1e-4)

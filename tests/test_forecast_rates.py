@@ -110,6 +110,8 @@ def test_times_in_doubt_are_speeds_in_doubt(forward):
     slope = np.diff(np.log(force)) / np.log(1.1)
     scatter = np.std([np.log(one.tau0) for one in allowed(RUBBER)], ddof=1)
     assert np.std(rows[:, 0], ddof=1) == pytest.approx(slope[0] * scatter, rel=0.1)
+    slower = tests.slower(0.05, Interface(WORK, GAP))
+    assert slower == pytest.approx(0.05 * np.repeat(slope, 2), rel=0.1)
 
 
 def test_the_posterior_agrees_with_the_profile(fit):

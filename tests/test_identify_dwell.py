@@ -1,5 +1,6 @@
 """Growth of the work of adhesion with contact time from tests after several dwells."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -241,6 +242,11 @@ def test_a_series_of_several_dwells_needs_a_relaxed_solid():
     with pytest.raises(vt.InputError, match="relaxes"):
         identify.RateSeries(tests, material=solid, radius=5e-3)
     identify.RateSeries(tests[::2], material=solid, radius=5e-3)
+    # by more than 2 %
+    for left, refused in ((1.019, False), (1.021, True)):
+        creeping = SimpleNamespace(relaxation=lambda t, left=left: left if t < 5 else 1.0)
+        with pytest.raises(vt.InputError, match="2%") if refused else nullcontext():
+            identify.contact_time.check_relaxed(creeping, np.array([1.0, 9.0]))
 
 
 def test_without_an_approach_the_time_in_contact_is_unknown():

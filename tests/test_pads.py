@@ -60,6 +60,13 @@ def test_equal_pads_on_a_rigid_backing_carry_as_many_times_one_pad(problem):
         assert found.method == "steady cracks"
 
 
+def test_equal_pads_behind_a_spring_pull_as_one_behind_its_share():
+    problem, stiffness = pad(RUBBER, gap=6e-7), 400.0
+    found = pulled(problem, PLACES[:4], stiffness=stiffness)
+    assert found.pull_off_force == pytest.approx(4 * alone(problem, stiffness / 4), rel=1e-6)
+    assert abs(alone(problem, stiffness) / alone(problem, stiffness / 4) - 1) > 0.01
+
+
 def test_on_a_soft_backing_the_weakest_pad_lets_go_first():
     works, heights = [1.1, 0.9, 1.0, 1.05], [0.0, 2e-6, -1e-6, 1e-6]
     places = grid(1, 4, 5e-3)

@@ -49,7 +49,9 @@ def test_the_weaker_of_two_elastic_contacts_opens(side):
     stamp = with_work(stamp, edge_of_work(donor, stamp) * (1 + side * 1e-3))
     weaker = 1 if side < 0 else 0
     # 0.1 % beside the edge is inside the bands, but the nominal answer is that of the forces
-    assert vt.which_opens(donor, stamp).nominal == weaker
+    found = vt.which_opens(donor, stamp)
+    # either opens if it is weakened and the other strengthened
+    assert (found.nominal, found.corners, found.opened) == (weaker, (0, 1), None)
     assert vt.simulate_in_series(donor, stamp, accuracy=1e-3).opened == weaker
 
 
@@ -90,8 +92,8 @@ def test_two_equal_steady_cracks_pull_off_as_one_at_half_the_speed():
     expected = vt.crack_contact(half).pull_off_force * pair.scales().force
     found = vt.which_opens(pair, pair)
     assert found.tension == pytest.approx(expected, rel=1e-3)
-    assert found.opened is None
-    assert found.nominal is None
+    assert (found.opened, found.nominal, found.corners) == (None, None, (0, 1))
+    assert vt.which_opens(pair, with_work(pair, 0.15 * 1.001)).nominal == 0
 
 
 def test_a_far_stiffer_and_stronger_contact_leaves_that_of_the_other():

@@ -114,7 +114,10 @@ def test_a_file_with_scatter_has_columns_of_probabilities(folder):
     row = rows_of("map.csv")[0]
     expected = NormalDist().cdf(log(50 / 20) / (0.2 * sqrt(2)))
     assert float(row["pick_probability"]) == pytest.approx(expected, abs=5e-3)
-    assert float(row["transfer_probability"]) <= float(row["print_probability"])
+    chance = {name: float(row[f"print_{name}"]) for name in ("low", "probability", "high")}
+    assert 0.9 < chance["low"] < chance["probability"] < chance["high"]
+    both = float(row["pick_probability"]) * chance["probability"]
+    assert float(row["transfer_probability"]) == pytest.approx(both)
 
 
 WARM = "".join(
