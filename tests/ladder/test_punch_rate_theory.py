@@ -8,9 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 import viscotack as vt
-from dimensionless import last_slope, standard
-from reference_data import reference
-from viscotack.theory import greenwood, punch
+from dimensionless import last_slope
+from viscotack.theory import punch
 from viscotack.theory.crack.law import THEORIES
 from viscotack.theory.punch import Pad, crossover, curve, unloading
 
@@ -209,47 +208,3 @@ def test_map_has_the_regimes_of_the_slow_and_of_the_fast_pad():
     assert punch.regime_map(b, 1.0, PAD, rubber).regime[:, 0].tolist() == slow
     with pytest.raises(ValueError, match="must be one-dimensional arrays"):
         punch.regime_map(b[:, None], 1.0, PAD, LAW)
-
-
-# Verified values, E0* = h0 = tau = 1 ------------------------------------------------------------
-def unit(strength):
-    return dict(
-        contact_modulus=1.0, work_of_adhesion=9 * np.sqrt(3) / 16 * strength, strength=strength
-    )
-
-
-@pytest.mark.parametrize("row", reference("3.32+3.34", "3.35", "App II (4)"))
-def test_amplification_gives_the_verified_value(row):
-    inputs = row["inputs"]
-    pad = Pad(**unit(inputs["Sigma0"]), half_width=1e9, base=FREE)
-    largest = np.inf
-    if "b/a0" in inputs:
-        largest = unloading.largest_amplification(inputs["b/a0"] * pad.fracture_length, pad)
-    theory = "persson-brener" if row["equation"].startswith("App") else "greenwood"
-    law = pad.crack_law(theory, material=standard(inputs["k"]))
-    found = unloading.amplification(inputs["Vc_tau/h0"], law, largest=largest)
-    assert found == pytest.approx(row["value"], rel=1e-11, abs=0)
-
-
-@pytest.mark.parametrize("row", reference("App II (3) / 4.17 single mode"))
-def test_persson_brener_of_the_appendix_gives_the_verified_value(row):
-    inputs, pad = row["inputs"], Pad(**unit(0.05), half_width=1e9, base=FREE)
-    law = pad.crack_law("persson-brener", material=standard(inputs["k"]))
-    x = inputs["x=beta*Vhat=2 pi v tau/l0"]
-    found = unloading.amplification(x * pad.fracture_length / (2 * np.pi), law, largest=np.inf)
-    assert found == pytest.approx(row["value"], rel=1e-11, abs=0)
-
-
-@pytest.mark.parametrize("row", reference("3.31", "App II beta", "3.34 kappa"))
-def test_lengths_and_limits_give_the_verified_value(row):
-    inputs = row["inputs"]
-    case = unit(inputs.get("Sigma0", 0.05))
-    a0 = punch.fracture_length(**case)
-    if row["equation"] == "3.31":
-        pad = Pad(half_width=inputs.get("a/a0", 64.85) * a0, **case, base=FREE)
-        found = unloading.largest_amplification(inputs["b/a0"] * a0, pad)
-    elif row["equation"] == "3.34 kappa":
-        found = greenwood.cohesive_zone_length(**case)
-    else:
-        found = 2 * np.pi / a0
-    assert found == pytest.approx(row["value"], rel=1e-13, abs=0)
