@@ -1,6 +1,5 @@
 """The API in its own process: answers, jobs, limits, files that are sent, and who may ask."""
 
-import json
 from dataclasses import replace
 from multiprocessing import active_children
 
@@ -11,7 +10,7 @@ from front_ends import Client, served
 from viscotack.app.api import application
 from viscotack.app.api.routes import guard
 from viscotack.app.engine.jobs import Engine, Limits
-from viscotack.app.operations.parts.solid import EXAMPLES, FIRST
+from viscotack.app.operations.parts.solid import FIRST
 
 OVER = ("done", "refused", "failed", "cancelled")
 
@@ -41,17 +40,6 @@ def ask(engine):
     with served(Asking(application(engine))) as client:
         yield client
     assert active_children() == []
-
-
-@pytest.mark.parametrize("tables", [FIRST, EXAMPLES["A flat punch on a soft layer"]])
-def test_a_prediction_is_that_of_the_package(ask, tables):
-    import viscotack as vt
-
-    answer = ask("POST", "/api/predict", json={"problem": tables})
-    assert answer.status_code == 200
-    problem = vt.from_dict(answer.json()["problem"])
-    expected = vt.prediction_summary(vt.predict(problem))
-    assert answer.json() == json.loads(json.dumps(expected))
 
 
 def test_a_simulation_is_a_job_whose_curve_grows_and_whose_digits_are_those_of_solve(ask):
@@ -93,11 +81,6 @@ def test_a_sweep_has_a_row_for_each_case_and_says_why_one_failed(ask):
     assert found["answer"]["failed"] == 1
     many = ask.job("sweep", cases=cases * 2)
     assert many.status_code == 422 and "exceed the limit of 3" in many.json()["error"]
-
-
-def test_no_file_of_the_server_is_read(ask):
-    found = ask("POST", "/api/material/show", json={"passport": "pyproject.toml"})
-    assert found.status_code == 422 and "was sent with the request" in found.json()["error"]
 
 
 @pytest.mark.parametrize("end", ["cancelled", "failed"])

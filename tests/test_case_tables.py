@@ -8,7 +8,6 @@ import pytest
 import viscotack as vt
 from command_line import exit_status, rows_of
 from viscotack.app.operations import ask
-from viscotack.model.problem.rows import changes_of
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "from_toml"
 LENS, PAD = (EXAMPLES / "lens.toml").read_text(), EXAMPLES / "pad.toml"
@@ -56,13 +55,3 @@ def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):
     assert "carried along: lens, note" in said.err
     assert "unanswered  2" in said.out
     assert "e, sphere.radius 5 mm, protocol.speed 10 um/s   3.9249 mN" in said.out
-
-
-def test_two_headings_of_one_number_are_refused(case):
-    problem = vt.read_case(case)
-    found = changes_of(problem, ["lens", "RADIUS_mm", "Speed [um/s]"])
-    assert found.values({"RADIUS_mm": "2", "Speed [um/s]": 30}) == pytest.approx(
-        {"sphere.radius": 2e-3, "protocol.speed": 3e-5}, rel=1e-12
-    )
-    with pytest.raises(vt.InputError, match="radius and sphere.radius state one number"):
-        changes_of(problem, ["radius", "sphere.radius"])

@@ -5,7 +5,7 @@ import json
 import pytest
 
 import viscotack as vt
-from command_line import answered, refused
+from command_line import answered
 from solids import creep_power_law
 
 GROUPS = """
@@ -120,24 +120,3 @@ def test_a_file_without_dimensions_states_what_the_flags_state(
 def test_what_has_no_meaning_without_dimensions_is_refused(lines, field, tmp_path):
     with pytest.raises(vt.InputError, match=field):
         read(tmp_path, SHORT + lines)
-
-
-def predicted(path, *replaced):
-    return ["predict", path, *(word for one in replaced for word in ("--set", one))]
-
-
-def test_numbers_of_a_file_are_replaced(tmp_path, capsys):
-    text = GROUPS.replace('moves = ["approach 5 to depth 80", "dwell 2"]\nstiffness = 4\n', "")
-    path = tmp_path / "a.toml"
-    path.write_text(text)
-    other = tmp_path / "b.toml"
-    other.write_text(text.replace("3.24", "2.5").replace("316.23", "100"))
-    one = answered(predicted(path, "tabor=2.5", "rate = 100"), capsys)
-    two = answered(predicted(other), capsys)
-    assert one["pull_off_force"] == two["pull_off_force"]
-    for *wrong, name in (
-        ("tabour=2", "tabor"),
-        ("tabor=2 mm", "tabor"),
-        ("rate=1", "rate=2", "rate"),
-    ):
-        assert name in refused(predicted(path, *wrong), capsys)

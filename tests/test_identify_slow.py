@@ -1,18 +1,16 @@
 """The interface from a slow test: true values found, models chosen, what is not told said."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-import tack_files
-from command_line import exit_status
+from picture_units import in_si
 from viscotack.app.operations.parts.records import slow_record
 from viscotack.errors import InputError
-from viscotack.identify import Objective, Parameter, SlowTest, identify_slow, slow_test
-from viscotack.lab import tack
+from viscotack.identify import Objective, Parameter, SlowTest, identify_slow
 from viscotack.model.materials.library import passport_of
+from viscotack.plot.interface import draw_slow_test
 from viscotack.theory import jkr, maugis
 
 LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}
@@ -46,6 +44,10 @@ def test_jkr_recovers_the_work_of_adhesion_from_noisy_forces_at_radii():
     assert fit.best.model == "jkr"
     assert fit.best.work_of_adhesion == pytest.approx(0.152, rel=0.02)
     assert fit.best.contact_modulus == pytest.approx(LENS["contact_modulus"], rel=0.02)
+    above, below = draw_slow_test(fit).axes
+    assert in_si(above.yaxis, above.lines[0].get_ydata()) == pytest.approx(fit.test.force)
+    rest = below.lines[0].get_ydata()
+    assert np.sqrt(np.mean(rest**2)) * fit.test.force_noise == pytest.approx(fit.best.scatter)
 
 
 def test_a_range_that_matters_is_found_by_maugis_and_by_carpick():
@@ -117,18 +119,3 @@ def test_a_profile_of_a_parabola_is_its_width():
 def test_a_test_without_information_is_refused(change):
     with pytest.raises(InputError):
         replace(of_jkr(0), **change)
-
-
-def test_the_command_prints_the_result_of_the_function(tmp_path, capsys):
-    path, picture = tmp_path / "lens.csv", tmp_path / "fit.png"
-    path.write_bytes(tack_files.with_camera(tack_files.made(2e-5)))
-    arguments = ["identify", "slow", path, "--radius", "5 mm", "--model", "jkr", "--model", "dmt"]
-    assert exit_status([*arguments, "--json", "--plot", picture]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["fits"][0]["model"] == "jkr" and answer["against"] == "radius"
-    assert picture.stat().st_size > 10_000
-    (cycle,) = tack.evaluate(tack.read(path)[0]).cycles
-    fit = identify_slow(slow_test(cycle, 5e-3), models=["jkr", "dmt"])
-    assert fit.best.work_of_adhesion == pytest.approx(0.152, rel=0.02)
-    assert fit.best.work_of_adhesion == answer["fits"][0]["work_of_adhesion_J_m2"]
-    assert exit_status([*arguments, "--cycle", "2"]) == 2

@@ -42,6 +42,8 @@ def test_a_number_of_a_file_is_replaced_with_its_unit(lens, capsys):
     assert answer(capsys, lens, "--set", "radius=6 mm") == by_path
     for said in ("sphere.radius=6", "sphere.radius=6 kg", "sphere.radios=6 mm"):
         assert "--set: " in wrong(capsys, lens, "--set", said)
+    twice = ("--set", "radius=6 mm", "--set", "radius=7 mm")
+    assert "name each number once" in wrong(capsys, lens, *twice)
 
 
 def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):

@@ -3,7 +3,6 @@
 import pytest
 
 import viscotack as vt
-from command_line import answered
 from stated import LAW, case_text
 from viscotack.model.problem.case_file import law_from_words
 from viscotack.model.protocol_words import (
@@ -129,17 +128,3 @@ def test_a_wrong_law_is_refused_with_its_key(tmp_path):
     text = 'law = "exponential"\nwork_of_adhesion = "1 J/m^2"'
     with pytest.raises(ValueError, match="equilibrium_gap and decay"):
         case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', text)
-
-
-def test_moves_on_the_command_line(capsys):
-    line = ["simulate", "sphere", "--tabor", 1, "--material", "elastic", "--apart", 15]
-    line += ["--move", "approach 10 to depth 2", "--move", "dwell 1", "--stiffness", 5]
-    record = answered([*line, "--rate", 1, "--law", "exponential:0.4"], capsys)["problem"]
-    assert record["groups"] == {
-        "tabor": 1.0,
-        "apart": 15.0,
-        "moves": ["approach 10.0 to depth 2.0", "hold drive 1.0"],
-        "rate": 1.0,
-        "stiffness": 5.0,
-    }
-    assert record["interface"] == {"law": "exponential", "decay": 0.4}

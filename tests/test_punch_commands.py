@@ -84,13 +84,6 @@ def test_theory_says_how_thick_a_pad_must_be(capsys):
     assert back["slowest_pull_off_stress_Pa"] < 3e4 < back["fastest_pull_off_stress_Pa"]
 
 
-@pytest.mark.slow
-def test_theory_draws_its_map(capsys, tmp_path):
-    picture = tmp_path / "map.png"
-    answered(["theory", "punch", *PAD, "--plot", picture], capsys)
-    assert picture.stat().st_size > 10_000
-
-
 def test_an_elastic_pad_has_an_answer_and_no_map(capsys, tmp_path):
     pad = ["theory", "punch", *PAD[:8], "--material", "elastic"]
     answer = answered([*pad, "--thickness", "200 um", "--speed", "1 mm/s"], capsys)
