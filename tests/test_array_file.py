@@ -118,13 +118,15 @@ def test_a_weight_above_the_pull_off_force_is_held_up_to_the_instantaneous_stren
     array, how = PadArray(pad, grid(1, 1, 0.02)), {"speed": 1e-6, "preload": 3e-3}
     pulled = pull_array(array, **how)
 
-    def time(load, of=array):
-        return holding(of, pulled, Hold(load / 9.80665), **how).time
+    def time(load, of=array, sharing=1.0):
+        found = replace(pulled, load_sharing=sharing)
+        return holding(of, found, Hold(load / 9.80665), **how).time
 
     P = pulled.pull_off_force
     # a crack contact that is loaded in 1 s holds 6.39 and 3.92 s longer, and creeps meanwhile
     assert [time(1.01 * P), time(1.2 * P)] == pytest.approx([6.39 + 0.32, 3.92 + 0.31], rel=0.005)
     assert held_load(pad, time(3 * P)) == pytest.approx(3 * P, rel=0.005)
+    assert time(0.6 * P, sharing=0.5) == pytest.approx(time(1.2 * P))  # of the weakest pads
     # the relaxed contact with the modulus of the first instant, 20 times that at rest
     a3 = jkr.contact_radius_at_force(3e-3, radius=R, contact_modulus=E, work_of_adhesion=w) ** 3
     strength = sqrt(8 * pi * E * a3 * 20 * w) - 4 * E * a3 / (3 * R)

@@ -89,9 +89,12 @@ def test_the_controller_lets_go_at_the_wanted_force_where_a_constant_drive_misse
 
 def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
     release = vt.control.Release(table, 4e-3, 100.0, 1e-3, fastest=1.0)
-    release.drive_speed(0.0, -4e-3)
-    assert not release.past
+    for force in (-4e-3, -3.95e-3):  # a loss of tension of 1.25 % may be noise
+        release.drive_speed(0.0, force)
+        assert not release.past
     assert release.drive_speed(-1e-6, -3.9e-3) == -release.speed and release.past
+    release.fastest = 0.5 * release.speed
+    assert release.drive_speed(-1e-6, -3.9e-3) == -0.5 * release.speed
 
 
 PUNCH = replace(

@@ -286,6 +286,11 @@ def test_a_file_states_conditions_and_scatter(tmp_path):
     assert conditions.holding_time("pdms-10-1", 60.0) == pytest.approx(60.0)
 
 
+def test_an_area_has_room_for_whole_pads_or_for_none():
+    space = replace(SPACE, pads=Bounds(2, 5), area=3 * (2 * 2e-3) ** 2)
+    assert [space.most_pads(radius) for radius in (1e-3, 2e-3, 2.4e-3, 3e-3)] == [5, 3, 2, 0]
+
+
 def test_a_preload_limit_binds():
     space = replace(SPACE, preload=Bounds(1e-3, 20e-3), hold_speed=Bounds(1e-3), release_speed=None)
     targets = vt.Targets(hold=1e-3, preload=3e-3)

@@ -1,6 +1,9 @@
 """Fits to measured moduli: constants found again, intervals that hold, honesty at the ends."""
 
+import re
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +16,7 @@ from viscotack.identify import PullOff, RateSeries, identify_rates
 from viscotack.lab import fit, master_curve, read, read_dma
 from viscotack.lab.fit import errors as fit_errors
 from viscotack.lab.fit import prony
-from viscotack.lab.fit.fitting import _alike
+from viscotack.lab.fit.fitting import _alike, cautions, flow, undetermined
 from viscotack.lab.fit.observed import observed
 from viscotack.lab.fit.power_law import fit_constants
 from viscotack.lab.fit.prony import fit_series
@@ -182,6 +185,38 @@ def test_a_series_without_a_plateau_has_a_bound_as_well(monkeypatch):
     assert tails == pytest.approx([0.1, 0.1])
 
 
+def test_an_end_is_open_where_the_modulus_changes_by_over_five_percent_per_decade():
+    law, far = fractional_zener(1.0, 1e9, 0.3, 1.0, 0.5), np.geomspace(1e14, 1e16, 9)
+    middle = observed(curve(noise=0, material=law, omega=far), poisson_ratio=0.5)
+    for name in prony.NAMES:  # it rises as the frequency to the power of the order
+        assert prony.change(middle, law, name) == pytest.approx(10**0.3 - 1, rel=1e-3)
+    # near its rubbery end this solid has a loss tangent of 0.9 times the frequency
+    solid, slow = standard_solid(1.0, 10.0, 1.0, 0.5), np.pi / 2 * np.log10(1.05) / 0.9
+    for place, ends in ((0.97, ()), (1.03, ("rubbery_modulus",))):
+        omega = np.geomspace(place * slow, 1e6, 9)
+        data = observed(curve(noise=0, material=solid, omega=omega), poisson_ratio=0.5)
+        assert prony.open_ends(data, solid) == ends
+
+
+def test_a_plateau_of_one_arm_ends_at_the_quantile_of_a_mean():
+    errors, level = np.random.default_rng(0).normal(size=(4000, 25)), np.full((25, 1), 1.0)
+    numbers, sums = np.full(25, 7.0), np.ones(1)
+    end = prony.Plateau(level, numbers, sums, errors).end(1, 0.1)
+    assert end == pytest.approx(7 + 1.2816 / 5, abs=0.01)
+
+
+def test_misfits_and_extrapolation_are_said_from_their_limits():
+    report = fit(curve(1).chosen(OMEGA[::-1] < 1e12), poisson_ratio=0.5, model="power-law")
+    stiffest, glassy = report.observed.moduli[1], report.interval("glassy_modulus")
+    for beyond, said in ((1.2, False), (1.3, True)):
+        found = replace(report, intervals=(replace(glassy, value=beyond * stiffest),))
+        assert any("extrapolates" in words for words in undetermined(found)) is said
+    for off, said in ((0.38, False), (0.42, True)):
+        moduli = {name: np.exp(off) * getattr(PDMS, name) for name in prony.NAMES}
+        missed = cautions(replace(report, material=replace(PDMS, **moduli)), None)
+        assert any("does not describe" in words for words in missed) is said
+
+
 # ---- Prony series ------------------------------------------------------------------------------
 
 
@@ -259,7 +294,8 @@ def test_sweeps_that_err_as_one_make_intervals_wide_enough():
     inside = []
     for seed in range(3):
         report = fit(swept(seed), poisson_ratio=0.5, model="power-law", draws=0)
-        assert "the points of one sweep have a common error" in report.words()
+        common = re.search("the points of one sweep have a common error of (.*) %", report.words())
+        assert float(common[1]) == pytest.approx(3, rel=0.5)  # type: ignore[index]
         inside += [i.low <= getattr(SMOOTH, i.name) <= i.high for i in report.intervals]
     assert np.mean(inside) > 0.8
 
@@ -311,6 +347,19 @@ def test_a_liquid_is_called_one():
     assert "this is a liquid" in fit(flowing, poisson_ratio=0.5, model="prony", draws=2).words()
     solid = fit(curve(), poisson_ratio=0.5, model="prony", draws=2)
     assert "liquid" not in solid.words() and not issued(solid, name="solid").liquid
+
+
+def test_flow_begins_at_a_loss_of_three_storages_and_a_power_of_time_of_0_8():
+    at = np.geomspace(1.0, 10.0, 5)
+    for loss, power, flows in ((2.9, 0.79, False), (3.1, 0.81, True)):
+        law: Any = SimpleNamespace(
+            complex_modulus=lambda omega, loss=loss: (1 + 1j * loss) * np.ones_like(omega),
+            creep=lambda t, power=power: t**power,
+            relaxation=lambda t, power=power: t**-power,
+        )
+        sweep = MasterCurve(293.15, at, np.ones(5), loss * np.ones(5), "E")
+        for data in (sweep, CreepTest(at, law.creep(at), "E"), RelaxationTest(at, 1 / at, "E")):
+            assert bool(flow(observed(data, poisson_ratio=0.5), law)) is flows
 
 
 def test_an_end_that_no_profile_reaches_is_no_bound():

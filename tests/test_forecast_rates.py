@@ -73,6 +73,9 @@ def test_a_forecast_covers_the_true_value_and_widens_away_from_the_data(fit, for
     width = np.log(found.high / found.low)
     assert width[1] > 1.5 * width[0]
     assert found.low_of_one is None
+    # a warmer contact is no slower test of the same
+    warm = forecast_rates(fit, 1.1e-3, temperature=303.15)
+    assert warm.high < fit.forces[-1]
     # a single test scatters about the mean of many
     single = forecast_rates(of_other(fit, scatter=0.1), speed[:1])
     assert single.low == pytest.approx(found.low[:1], rel=2e-3)

@@ -22,6 +22,9 @@ MATERIALS = [
 STARTS = [vt.AtDepth(2e-6), vt.AtForce(1.5e-3), vt.AtRadius(0.3e-3)]
 
 
+TIP = vt.PowerLawProfile(7.0, 1.5)
+
+
 def start_value(start):
     return next(iter(vars(start).values()))
 
@@ -59,24 +62,33 @@ def test_scales_follow_their_definitions():
     assert s.stress == pytest.approx(w / h0, rel=1e-13)
 
 
+GAP, WORK = "equilibrium_gap", "work_of_adhesion"
+
+
 @pytest.mark.parametrize(
-    ("material", "start", "known"),
+    "known, material, start, shape, law",
     [
-        (MATERIALS[0], STARTS[0], "equilibrium_gap"),
-        (MATERIALS[2], STARTS[1], "work_of_adhesion"),
-        (MATERIALS[4], STARTS[2], "work_of_adhesion"),
+        (GAP, MATERIALS[0], STARTS[0], None, vt.LennardJones(0.15, 1.5e-6)),
+        (WORK, MATERIALS[2], STARTS[1], None, vt.LennardJones(0.15, 1.5e-6)),
+        (WORK, MATERIALS[4], STARTS[2], None, vt.LennardJones(0.15, 1.5e-6)),
+        (GAP, MATERIALS[1], vt.AtDepth(2e-6), None, vt.GentSchultz(0.15, 1.5e-6, 7e-6, 0.4)),
+        (WORK, MATERIALS[1], vt.AtForce(1e-7), vt.Cone(0.2), vt.LennardJones(0.15, 1e-7)),
+        (GAP, MATERIALS[1], vt.Apart(1e-6), vt.Cone(0.2), vt.LennardJones(0.15, 1e-7)),
+        (WORK, MATERIALS[1], vt.AtRadius(1e-6), TIP, vt.LennardJones(0.15, 1e-7)),
+        (GAP, MATERIALS[1], vt.AtDepth(1e-8), TIP, vt.LennardJones(0.15, 1e-7)),
     ],
 )
-def test_groups_with_their_scales_are_the_problem_again(material, start, known):
-    old = lens(material=material, protocol=vt.Retraction(start=start, speed=37e-6))
+def test_groups_with_their_scales_are_the_problem_again(known, material, start, shape, law):
+    test = vt.Retraction(start, 37e-6, moves=(vt.Dwell(3.0, hold="depth"),), stiffness=3.0)
+    old = vt.Problem(material, law, shape or vt.Sphere(5.19e-3), test)
     new = old.groups().in_si(
-        radius=old.geometry.radius,
+        radius=old.radius,
         contact_modulus=old.material.contact_modulus,
         time_unit=old.material.time_unit,
         poisson_ratio=old.material.poisson_ratio,
         **{known: getattr(old.traction, known)},
     )
-    assert numbers(new) == pytest.approx(numbers(old), rel=1e-12)
+    assert numbers(new) == pytest.approx(numbers(old), rel=1e-11)
     assert type(new.material) is type(old.material)
     assert type(new.protocol.start) is type(start)
 

@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from stated import numbers
-from viscotack.model.geometry import Cone, Disc, HalfSpace, Layer, PowerLawProfile, Sphere
+from viscotack.model.geometry import (
+    Cone,
+    Disc,
+    HalfSpace,
+    Layer,
+    PowerLawProfile,
+    Sphere,
+    WavySphere,
+)
 from viscotack.model.materials import Elastic, StandardSolid
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.protocol import (
@@ -83,24 +91,14 @@ def test_scales_are_those_of_jkr_and_the_tabor_number_is_the_depth_over_the_rang
     assert end.depth / s.length == pytest.approx(given.tabor * unit.depth, rel=1e-12)
 
 
-@pytest.mark.parametrize("profile", [Cone(0.2), PowerLawProfile(7.0, 1.5), PowerLawProfile(1e8, 3)])
-@pytest.mark.parametrize("start", [AtForce(1e-7), AtDepth(1e-8), AtRadius(1e-6), Apart(1e-6)])
-def test_groups_with_their_scales_are_the_problem_again(profile, start):
-    old = problem(profile, start, moves=MOVES[1:], stiffness=3.0)
-    new = old.groups().in_si(
-        radius=old.radius,
-        contact_modulus=SOLID.contact_modulus,
-        work_of_adhesion=LAW.work_of_adhesion,
-        time_unit=0.1,
-        poisson_ratio=0.5,
-    )
-    assert numbers(new) == pytest.approx(numbers(old), rel=1e-11)
-
-
 def test_a_tip_that_is_steep_where_the_forces_end_is_refused():
     # of a sphere, sqrt(2 h0/R)
     with pytest.raises(ValueError, match="too steep: its slope is 0.535 where the gap is"):
         problem(PowerLawProfile(1 / (2 * 0.7e-6), 2), Apart(1e-6))
+    # of waves as high as the gap, 2 pi amplitude/wavelength, 0.45 and 0.63
+    assert problem(WavySphere(1e-3, 5e-8, 7e-7), Apart(1e-6)).geometry.detail == 3.5e-7
+    with pytest.raises(ValueError, match="too steep: its slope is 0.6"):
+        problem(WavySphere(1e-3, 5e-8, 5e-7), Apart(1e-6))
 
 
 @pytest.mark.parametrize(("by", "fits"), [(0.999, True), (1.001, False)])

@@ -68,17 +68,6 @@ def test_a_reduced_law_counts_speeds_in_gaps_per_unit_of_time(law):
     assert back.reference_speed == pytest.approx(law.reference_speed, rel=1e-15, abs=0)
 
 
-# --- in words, files, records
-def test_groups_go_to_si_and_back():
-    law = vt.GentSchultz(1, 1, 7.0, 0.4)
-    groups = Groups(tabor=2.0, material=SOLID, start=AtDepth(2.0), rate=3.0, traction=law)
-    problem = groups.in_si(
-        radius=5e-3, contact_modulus=2e6, equilibrium_gap=1e-6, time_unit=0.02, poisson_ratio=0.5
-    )
-    assert problem.traction.reference_speed == pytest.approx(7.0 * 1e-6 / 0.02)
-    assert problem.groups().traction.reference_speed == pytest.approx(7.0)
-
-
 # --- limits
 def test_a_rigid_sphere_pulls_off_with_bradleys_force_and_the_growth_of_its_speed():
     # mu -> 0: all gaps open with the speed of the sphere
