@@ -3,6 +3,7 @@ import pytest
 
 import synthetic
 import viscotack as vt
+from dimensionless import ELASTIC, punch
 from viscotack.campaign import CaseSettings, measure
 from viscotack.result.curve import KEY_SHARES, curve
 
@@ -49,6 +50,16 @@ def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
     assert row["trajectory_depth"][0] == pytest.approx(depths[1])
     assert row["travel_to_pull_off"] == pytest.approx(depths[1] - row["depth_at_pull_off"])
     assert np.all(np.diff(row["trajectory_depth"]) < 0)
+
+
+def test_the_curve_of_a_punch_counts_tension_positive():
+    row = measure(punch(vt.AtDepth(1.0), rate=1.0, material=ELASTIC), QUICK)
+    stress = np.array(row["trajectory_stress"])
+    assert stress[-1] == row["pull_off_stress"] == stress.max() > 0
+    share = (row["trajectory_depth"][0] - np.array(row["trajectory_depth"])) / (
+        row["travel_to_pull_off"]
+    )
+    assert row["stress_at_50"] == pytest.approx(np.interp(0.5, share, stress), rel=0.02)
 
 
 def test_the_curve_of_a_problem_in_si_has_each_column_in_si_too():

@@ -130,16 +130,35 @@ def test_statistics_of_a_spectrum_are_those_asked_for():
     found = surfaces.self_affine(256, 1e-6, hurst=0.7, rms_height=2e-7, seed=5, shortest=8e-6)
     spread = surfaces.roughness(found)
     assert spread.rms_height == pytest.approx(2e-7, rel=1e-12)
-    # Parseval: rms values are sums over the spectrum
     inside = (spread.wave_number > 1e5) & (spread.wave_number < 7e5)
     q, C = spread.wave_number[inside], spread.spectrum[inside]
     slope = np.polyfit(np.log(q), np.log(C), 1)[0]
     assert slope == pytest.approx(-2 * 1.7, abs=0.15)
+    # only a periodic map continues from its last row to its first
+    for periodic, apart in ((True, (0.5, 2)), (False, (5, np.inf))):
+        h = surfaces.self_affine(
+            64, 1e-6, hurst=0.7, rms_height=2e-7, seed=5, shortest=8e-6, periodic=periodic
+        ).heights
+        assert apart[0] < np.std(h[-1] - h[0]) / np.std(h[1] - h[0]) < apart[1]
+
+
+def test_waves_and_white_noise_have_the_statistics_of_their_formulas():
+    x, q = np.arange(64), 2 * np.pi * np.array([2, 5]) / 64
+    waves = np.add.outer(3 * np.cos(q[0] * x), np.cos(q[1] * x))
+    found = surfaces.roughness(surfaces.HeightMap(waves, 1.0, periodic=True))
+    steps = 2 * np.sin(q / 2)  # of differences, for q
+    assert found.rms_slope == pytest.approx(np.hypot(*(steps * [3, 1])) / np.sqrt(2))
+    assert found.rms_curvature == pytest.approx(np.hypot(*(steps**2 * [3, 1])) / np.sqrt(8))
+    noise, pixel = np.random.default_rng(0).normal(size=(128, 128)), 1e-3
+    for periodic in (True, False):  # every wave has the variance times the area of a pixel
+        found = surfaces.roughness(surfaces.HeightMap(noise, pixel, periodic))
+        assert np.mean(found.spectrum[20:]) == pytest.approx(pixel**2, rel=0.05)
 
 
 def test_levelling_removes_tilt_and_curvature():
     cap = surfaces.sphere(32, 1e-6, radius=1e-3)
-    ramp = surfaces.HeightMap(1e-7 * np.add.outer(np.arange(32), 2 * np.arange(32)), 1e-6)
+    x = np.arange(32)
+    ramp = surfaces.HeightMap(1e-7 * (np.add.outer(x, 2 * x) + 0.02 * np.outer(x, x)), 1e-6)
     flat = (cap + ramp).levelled(curvature=True)
     assert np.abs(flat.heights).max() < 1e-18
     assert surfaces.roughness(cap).rms_curvature == pytest.approx(1e3, rel=1e-6)
