@@ -30,6 +30,11 @@ def test_the_scatter_of_repeats_is_pooled_and_the_uncertainty_of_means_covers():
         abs(np.log(mean)) < 1.645 * one.uncertainty(tests) for one in drawn for mean in one.means
     ]
     assert 0.87 < np.mean(covered) < 0.93
+    # constants that are fitted to the means take their degrees of freedom
+    one, less = drawn[0], drawn[0].less(2)
+    assert less.freedom == one.freedom - 2 == 4
+    assert less.freedom * less.scatter**2 == pytest.approx(one.freedom * one.scatter**2)
+    assert one.less(6).uncertainty(tests) == 0
 
 
 def test_a_test_far_from_its_repeats_counts_little_and_is_named():

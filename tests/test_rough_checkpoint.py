@@ -63,6 +63,12 @@ def assert_same(found, whole):
         assert np.array_equal(one.pressure, other.pressure)
 
 
+def test_maps_are_kept_of_the_strongest_pull_and_at_even_steps_from_the_start(whole):
+    assert whole.strongest.force == whole.force.min()
+    places = np.searchsorted(whole.time, [each.time for each in whole.maps])
+    assert 3 <= len(places) <= 6 and places[0] == 0 and np.ptp(np.diff(places)) == 0
+
+
 @pytest.mark.parametrize("share", [0.3, pytest.param(0.8, marks=pytest.mark.slow)])
 def test_a_killed_run_continues_to_the_same_digits(tmp_path, whole, share):
     # in the retraction of the run, and after it

@@ -1,6 +1,7 @@
 """Cycles of tack tests: found by the signal, corrected, and refused where they say nothing."""
 
 import re
+from contextlib import nullcontext
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -279,6 +280,9 @@ def test_a_tension_that_lasts_behind_the_pull_off_is_a_sign_of_fibrils():
     assert "fibrils or cavities" in fibrils.cautions[0]
     (sphere,) = tack.evaluate(pulled_film(1e-6, 5e-7), into=1).cycles
     assert sphere.cautions == ()
+    for held, many in ((0.19, 0), (0.21, 1)):
+        force = -np.append([0.0, 1.0], np.full(98, held))
+        assert len(evaluation._fibrils(force, -np.arange(100.0), 0, 1, 100)) == many
 
 
 def test_a_speed_that_changes_is_as_uncertain_as_one_anywhere_between_those_of_the_halves():
@@ -303,3 +307,15 @@ def test_no_minimum_is_placed_better_than_between_two_points():
     found = extremum(force, 10, 1e-5)
     assert found.at == pytest.approx(10.3, abs=0.1)
     assert found.at_uncertainty == pytest.approx(np.sqrt(1 / 12), rel=0.05)
+
+
+@pytest.mark.parametrize(
+    "noise, zero, words",
+    [(0.19, 0.0, ""), (0.21, 0.0, "above the noise"), (0.01, 0.24, ""), (0.01, 0.26, "tilt or")],
+)
+def test_a_pull_off_is_five_times_the_noise_and_four_times_the_doubt_of_the_zero(
+    noise, zero, words
+):
+    force = 1e-3 * (np.arange(61.0) - 30) ** 2 - 1
+    with pytest.raises(InputError, match=words) if words else nullcontext():
+        assert evaluation._least(force, 30, noise, zero).value == pytest.approx(-1)

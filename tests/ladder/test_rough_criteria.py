@@ -1,9 +1,12 @@
 """Closed measures of stickiness: identities, limits, and pulls on the grid beside them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import viscotack as vt
+from solids import standard_solid
 from viscotack.model.surfaces import HeightMap, self_affine, sphere
 from viscotack.simulate.grid.plane import Plane
 from viscotack.simulate.rough import RoughProblem, pull, stickiness
@@ -51,6 +54,21 @@ def test_a_rim_around_patches_attracts_as_a_hertzian_edge_opens():
     patch = spread.rms_slope * RUBBER.contact_modulus / 2
     assert found.pastewka_robbins == pytest.approx(np.pi * (3 / 16) ** (2 / 3) * patch / rim)
     assert found.range_over_gap == pytest.approx(reach / opening)
+
+
+def test_the_criteria_of_a_wave_are_closed_forms():
+    a, wave, work = 0.5e-6, 128e-6, 0.02
+    x = np.cos(2 * np.pi * np.arange(64) / 64)
+    surface = HeightMap(a * np.add.outer(x, np.zeros(64)), wave / 64, periodic=True)
+    solid = standard_solid(1.5e6, 15e6, 1.0, 0.5)
+    found = stickiness(replace(problem(surface, work=work), material=solid))
+    E, q = solid.contact_modulus, 2 * np.pi / wave
+    # Johnson (1995): pressed flat with E q a/2, and a mean square of half the amplitude's
+    assert found.full_contact == pytest.approx(E * q * a**2 / (8 * work), rel=1e-3)
+    assert found.full_contact_fast == pytest.approx(10 * found.full_contact)
+    # rms height a/sqrt(2), and the curvature in both directions is half of that in one
+    fuller = E * (a / np.sqrt(2)) ** 1.5 * np.sqrt(a * q**2 / np.sqrt(8)) / work
+    assert found.fuller_tabor == pytest.approx(fuller, rel=1e-3)
 
 
 def test_flat_maps_stick_with_the_strength_and_spheres_have_no_mean_plane():
