@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,9 @@ from viscotack.app.operations import ask
 from viscotack.campaign import CaseSettings, measure, read_plan
 from viscotack.errors import InputError
 from viscotack.model import surfaces
+from viscotack.result import Event
 from viscotack.simulate.rough import pull, read_rough, read_rough_case
+from viscotack.simulate.rough.result import FieldMap, RoughResult
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "rough"
 SMALL = """
@@ -191,6 +194,30 @@ def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(small):
     assert same["work_of_separation_J"] == found.work_of_separation
     assert same["hysteresis_J"] == found.hysteresis and same["status"] == found.status
     assert {"contact_share_at_pull_off", "pastewka_robbins", "steps", "versions"} <= same.keys()
+
+
+def test_a_pull_counts_its_work_from_zero_force_without_jumps():
+    nothing: Any = np.zeros(4)
+    series = dict.fromkeys(("work", "elastic", "heat", "jumps", "patches"), nothing)
+    found = RoughResult(
+        time=np.arange(4.0),
+        depth=np.array([2.0, 0.0, -1.0, -3.0]),
+        drive=nothing,
+        force=np.array([1.0, -3.0, -2.0, 0.0]),
+        area=np.array([4.0, 2.0, 1.0, 0.0]),
+        interface=np.array([-9.0, -5.0, -2.0, -0.1]),
+        last_leg=0,
+        status="detached",
+        events=(Event("jump out of contact", 3.0, -3.0, 0.0, 1.0),),
+        energy_residual=0.0,
+        strongest=FieldMap(1.0, 0.0, -3.0, nothing, nothing),
+        nominal_area=8.0,
+        pixel=1.0,
+        **series,
+    )
+    # a triangle from depth 1.5, a trapezium, and the attraction that is left
+    assert found.work_of_separation == pytest.approx(1.5 * 3 / 2 + (3 + 2) / 2 + 0.1)
+    assert found.summary["contact_share_at_pull_off"] == 0.25
 
 
 def test_a_map_that_has_changed_since_is_refused(small):

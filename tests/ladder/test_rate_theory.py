@@ -184,9 +184,6 @@ def test_the_glassy_force_goes_from_jkr_to_dmt_with_the_tabor_number_of_the_glas
     h0 = theory.lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / 3.24
     found = theory.bounds.glassy_force(**LENS, equilibrium_gap=h0, modulus_ratio=0.1) / FORCE
     assert found == pytest.approx(10.764, rel=1e-4, abs=0)
-    assert theory.bounds.glassy_force(**long, modulus_ratio=0.1) == pytest.approx(
-        10 * theory.dmt.pull_off_force(radius=5e-3, work_of_adhesion=0.15), rel=1e-6, abs=0
-    )
 
 
 def test_the_glassy_force_of_a_small_contact_is_the_fast_limit_by_superposition():
