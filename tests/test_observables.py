@@ -160,12 +160,6 @@ def test_a_failed_run_has_no_observables():
     assert "the run failed" in answer["work_to_pull_off_note"]
 
 
-def test_a_force_that_still_falls_has_no_pull_off():
-    with pytest.raises(ValueError, match="still decreases at the end of the run"):
-        vt.pull_off_force(jkr_result(end=1.2))
-    assert vt.summary(jkr_result(end=1.2))["pull_off_force"] is None
-
-
 def test_only_the_retraction_counts_when_there_is_an_approach():
     result = jkr_result()
     depth = np.concatenate([np.linspace(-8, result.depth[0], 50)[:-1], result.depth])

@@ -128,14 +128,6 @@ def test_fast_crack_approaches_the_ratio_of_the_moduli_as_the_spectrum_falls(exp
     assert missing[-1] == pytest.approx(100 * 0.9 * part, rel=1e-3, abs=0)
 
 
-def test_one_mode_has_the_explicit_inverse_of_the_appendix():
-    # y = (1 - 1/Gamma)/(1 - k), 2 pi v = 2 y Gamma/(1 - y^2)
-    k, gamma = 0.04, np.array([1.001, 1.5, 4.0, 20.0])
-    y = (1 - 1 / gamma) / (1 - k)
-    found = persson_brener.speed(gamma, material=SOLIDS[0])
-    np.testing.assert_allclose(2 * np.pi * found, 2 * y * gamma / (1 - y**2), rtol=1e-11)
-
-
 def test_lengths_of_the_two_theories_differ_by_the_ratio_of_their_conventions():
     case = dict(contact_modulus=1.9e6, work_of_adhesion=0.2, strength=5e6)
     zone = greenwood.cohesive_zone_length(**case)
