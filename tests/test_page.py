@@ -30,7 +30,7 @@ def test_the_answer_of_the_page_is_that_of_predict(tables):
     try:
         found = predict(problem)
     except OutOfRange as error:
-        assert soon["numbers"] == [] and soon["refused"].lower() == f"{error}.".lower()
+        assert soon["numbers"] == [] and str(error).startswith(soon["refused"])
         return
     scales = problem.scales()
     scale = scales.stress if "punch" in tables else scales.force
@@ -52,12 +52,10 @@ def test_the_force_by_speed_has_that_of_the_case_in_its_middle(tables):
 def test_a_case_file_becomes_the_tables_of_the_page():
     cone = EXAMPLES["A shallow cone on silicone rubber"]
     moves = [{"approach": "10 um/s", "to_force": "1 mN"}, "dwell 1 s"]
-    said = {"profile" if n == "cone" else n: x for n, x in cone.items()}
-    said["protocol"] = cone["protocol"] | {"moves": moves}
+    said = cone | {"protocol": cone["protocol"] | {"moves": moves}}
     lines = (f"{n}.{k} = {toml_value(y)}\n" for n, x in said.items() for k, y in x.items())
     found = CaseFile(toml="".join(lines)).answer(Caller(sent=True)).record()["tables"]
-    assert found.pop("protocol")["moves"] == ["approach 10 um/s to force 1 mN", "dwell 1 s"]
-    assert found == {n: x for n, x in cone.items() if n != "protocol"}
+    assert found == said
 
 
 def test_a_refusal_names_the_field_that_it_belongs_to():

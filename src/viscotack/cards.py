@@ -41,6 +41,10 @@ USUAL = {
 }
 
 
+# Examples of numbers whose card has none in their unit.
+_EXAMPLES = {"Pa": "2 kPa", "Pa/m": "1 GPa/m", "1": "0.5"}
+
+
 def unusual(name: str, number: float | None, unit: str) -> str:
     """Return a warning about a number in SI of an improbable magnitude; "" otherwise.
 
@@ -149,6 +153,10 @@ class Quantity:
             return f"be at least {least:g}"
         return "" if most is None else f"be at most {most:g}"
 
+    def example_in(self, unit: str) -> str:
+        """Return an example in a unit, which may be another one than that of the card."""
+        return (self.example if unit == self.unit else "") or _EXAMPLES.get(unit, f"1 {unit}")
+
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         """Read a number of a table: text with its unit, or where the reader says so a number."""
         from pydantic_core import core_schema
@@ -156,18 +164,6 @@ class Quantity:
         return core_schema.with_info_plain_validator_function(
             lambda value, info: info.context.number(self, value)
         )
-
-    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """Return the JSON schema of the number: unit, description and range."""
-        bounds = {
-            "exclusiveMinimum": self.above,
-            "minimum": self.least,
-            "maximum": self.most,
-        }
-        number = {"type": "number"} | {k: x for k, x in bounds.items() if x is not None}
-        schema = number if self.unit == "1" else {"anyOf": [number, {"type": "string"}]}
-        schema |= {"description": self.words, "unit": self.unit, "symbol": self.symbol}
-        return schema | ({"examples": [self.example]} if self.example else {})
 
 
 @dataclass(frozen=True)
@@ -217,18 +213,6 @@ class Pairs:
         return core_schema.with_info_plain_validator_function(
             lambda value, info: info.context.pairs(self, value)
         )
-
-    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """Return the JSON schema of the list: units and description."""
-        number = {"anyOf": [{"type": "number"}, {"type": "string"}]}
-        pair = {"type": "array", "items": number, "minItems": 2, "maxItems": 2}
-        return {
-            "type": "array",
-            "items": pair,
-            "description": self.words,
-            "units": list(self.units),
-            "symbol": self.symbol,
-        }
 
 
 class Exact:

@@ -83,8 +83,7 @@ class Reading:
     def number(self, card: Quantity, value: Any) -> float:
         """Return a number in the unit of its card; InputError for a wrong unit or size."""
         unit = self.unit(card)
-        number = self.parsed(value, unit, card.example)
-        return card.checked("", number, unit)
+        return card.checked("", self.parsed(value, unit, card.example_in(unit)), unit)
 
     def pairs(self, card: Pairs, value: Any) -> tuple[tuple[float, float], ...]:
         """Return the pairs of numbers that a card describes."""
@@ -245,11 +244,8 @@ def _example(kind: Any, name: str, reading: Reading) -> str:
         return found.card.example
     if (found := cards(kind).get(name)) is None:
         return '"..."'
-    unit = reading.unit(found.card)
-    if unit == "1":
-        return found.card.example if found.card.unit == "1" and found.card.example else "1"
-    example = found.card.example if unit == found.card.unit else ""
-    return f'"{example or f"1 {unit}"}"'
+    example = found.card.example_in(reading.unit(found.card))
+    return example if reading.unit(found.card) == "1" else f'"{example}"'
 
 
 def refuse_unknown(

@@ -28,7 +28,7 @@ from .tier import (
 
 # Time budgets [s]: surrogates alone; surrogates and theories, the default.
 AT_ONCE, SOON = 0.01, 1.0
-_SIMULATE = (
+SIMULATE = (
     "a simulation can compute it (`exact`, or `viscotack simulate`), mostly in 0.1 to 3 s and "
     "above a Tabor number of 30 in up to a minute"
 )
@@ -116,7 +116,7 @@ def best(asked: Question, budget: float) -> Prediction:
     # the reasons of the other closed forms are similar
     form = "elastic" if isinstance(asked.groups.material, Elastic) else "detachment"
     words = [out, *(str(refused[name]) for name in (form, CRACK_CONTACT) if name in refused)]
-    raise OutOfRange(f"{'; '.join(dict.fromkeys(words))}; no theory applies either; {_SIMULATE}")
+    raise OutOfRange(f"{'; '.join(dict.fromkeys(words))}; no theory applies either; {SIMULATE}")
 
 
 def _answers(

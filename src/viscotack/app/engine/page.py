@@ -1,15 +1,10 @@
-"""Requests of the page: fast theories and surrogates for its case, and its input forms.
+"""Requests of the page: the schema of its case, and fast theories and surrogates for it.
 
 Curves are in SI, force (for a punch the mean stress) positive in compression, depth positive into
 the solid. No simulation is run.
-
-**Input forms of the page, generated from the cards, so that new nouns appear automatically.** The
-forms are plain data from which the page creates its fields.
 """
 
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict, replace
-from itertools import chain
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -21,23 +16,20 @@ from viscotack.app.operations.parts.solid import EXAMPLES, FIRST, library
 from viscotack.app.operations.parts.tables import drawn
 from viscotack.app.operations.request import Answer, Caller, Request
 from viscotack.app.operations.theory import pad_of
-from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError, OutOfRange
 from viscotack.files.toml import parse_toml
 from viscotack.model import geometry
-from viscotack.model.problem import Problem, plane, revolution
-from viscotack.model.problem.case_file import STARTS, STRENGTH, ProfilePoint
-from viscotack.model.problem.nouns import known
+from viscotack.model.problem import Problem
 from viscotack.model.problem.outputs import PLANE, REVOLUTION
-from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction, states
-from viscotack.model.traction import Tabulated
+from viscotack.model.problem.schema import schema
+from viscotack.model.protocol import AtDepth, AtForce, states
 from viscotack.prediction.advice import advice_on, estimate_by, estimates_without_advice
 from viscotack.prediction.cautions import cautions_on
 from viscotack.prediction.predict import predict
 from viscotack.prediction.prediction import Prediction
 from viscotack.prediction.theories import crack_of, forms_of
 from viscotack.prediction.tier import Question
-from viscotack.prediction.tiers import AT_ONCE, CLOSED_FORMS, CRACK, SOON, best
+from viscotack.prediction.tiers import AT_ONCE, CLOSED_FORMS, CRACK, SIMULATE, SOON, best
 from viscotack.simulate.crack_contact.by_crack import CrackContact
 from viscotack.theory.elastic import relaxed
 from viscotack.units import readable_interval
@@ -46,106 +38,14 @@ from viscotack.version import __version__
 if TYPE_CHECKING:
     from viscotack.app.operations.statement import Statement
 
-# What a field begins with that has no example in its unit.
-_SUGGESTED = {"Pa": "2 kPa", "Pa/m": "1 GPa/m", "1": "0.5"}
-# Ways to begin, the usual one first.
-_TITLES = {AtForce: "pressed by a load", AtDepth: "to a depth", AtRadius: "to a contact radius"}
-_TITLES |= {Apart: "apart"}
-
-
-def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
-    """Return the fields of all tables of a case file.
-
-    Parameters
-    ----------
-    also : iterable of classes
-        User-defined laws, materials and shapes.
-
-    Returns
-    -------
-    dict
-        ``material``, ``interface``, ``shape``: a list of choices, each with its word, title, words
-        and fields; ``layer``; ``protocol`` with its starts, by symmetry.
-
-    Examples
-    --------
-    >>> [choice["word"] for choice in forms()["shape"]]
-    ['sphere', 'cone', 'profile', 'wavy-sphere', 'disc', 'punch']
-    """
-    nouns = known(also)
-
-    def choices(kinds: Mapping[str, Any], *files: type) -> list[dict[str, Any]]:
-        """Return the choices that numbers state; `files` are stated by the table of a file."""
-        return [
-            {
-                "word": word,
-                "words": (kind.__doc__ or "").strip().partition("\n")[0].removeprefix("Describe "),
-                "fields": _fields(ProfilePoint if kind is geometry.PowerLawProfile else kind),
-                "symmetry": getattr(kind, "symmetry", ""),
-            }
-            for word, kind in kinds.items()
-            if kind not in files
-        ]
-
-    laws = choices(nouns.laws, Tabulated)
-    for field in (x for law in laws for x in law["fields"] if x["key"] == "equilibrium_gap"):
-        field["or"] = _asked("strength", STRENGTH)
-    return {
-        "material": choices(nouns.materials),
-        "interface": laws,
-        "shape": choices(nouns.shapes, geometry.MeasuredProfile),
-        "layer": {
-            "fields": _fields(geometry.Layer),
-            "bases": [{"word": base.word} for base in (geometry.Frictionless, geometry.Bonded)],
-        },
-        "protocol": {"revolution": _protocol(revolution.SI), "plane": _protocol(plane.SI)},
-    }
-
-
-def _protocol(units: Mapping[str, str]) -> dict[str, Any]:
-    """Return the fields of the protocol, in the units of a geometry."""
-    test, known = cards(Retraction), {x: key for key, x in STARTS[units["force"]].items()}
-    starts = []
-    for kind, title in _TITLES.items():
-        (field,) = cards(kind).values()
-        if kind is Apart:
-            starts.append(_asked("start", field.card) | {"title": title, "prefix": "apart "})
-        elif kind in known:
-            asked = _asked(known[kind], field.card, units[field.card.measure])
-            starts.append(asked | {"title": title})
-    return {
-        "starts": starts,
-        "speed": _asked("speed", test["speed"].card),
-        "stiffness": _asked("stiffness", test["stiffness"].card, units["stiffness"], optional=True),
-        "moves": [
-            "approach 10 um/s to force 1.5 mN",
-            "dwell 60 s",
-            "hold force 60 s",
-            "retract 10 um/s to depth -5 um",
-            "move to 2 um in 1 s",
-            "load to 1 mN in 1 s",
-        ],
-    }
-
-
-def _fields(kind: Any) -> list[dict[str, Any]]:
-    found = (*cards(kind).values(), *cards(kind, Pairs).values())
-    return [_asked(field.name, field.card, optional=not field.needed) for field in found]
-
-
-def _asked(
-    key: str, card: Quantity | Pairs, unit: str = "", *, optional: bool = False
-) -> dict[str, Any]:
-    """Return a field as plain data: what its card says, and an example in its unit."""
-    said = asdict(card) | {"key": key, "optional": optional}
-    if isinstance(card, Pairs):
-        return said | {"kind": "pairs"}
-    unit = unit or card.unit
-    example = card.example if unit == card.unit else ""
-    example = example or _SUGGESTED.get(unit, "1")
-    return said | {"kind": "number", "unit": unit, "range": card.range, "example": example}
-
-
+# Ways to begin a test, the usual one first, by the key of the table [protocol] that states them.
+_STARTS = {
+    "preload_force": "pressed by a load",
+    "preload_stress": "pressed by a load",
+    "preload_depth": "pressed to a depth",
+    "preload_radius": "pressed to a contact radius",
+    "start": "apart",
+}
 _POINTS = 80
 # A contact of an indenter of revolution is looked for up to this multiple of the radius (pi R^2
 # dg0/E0*)^(1/3), and a curve without a start is drawn to this one.
@@ -163,9 +63,9 @@ class Forms(Request):
     word: ClassVar = "forms"
 
     def answer(self, caller: Caller) -> Answer:
-        """Read the cards of all nouns."""
-        more = {"materials": library(), "examples": EXAMPLES, "version": __version__}
-        return Answer(None, data=forms(caller.also) | more)
+        """Return what the page makes its fields from."""
+        found = {"schema": schema(caller.also), "starts": _STARTS, "materials": library()}
+        return Answer(None, data=found | {"examples": EXAMPLES, "version": __version__})
 
 
 class CaseFile(Request):
@@ -176,16 +76,9 @@ class CaseFile(Request):
     toml: Annotated[str, Field(max_length=200_000)] = option("The text.", default=...)
 
     def answer(self, caller: Caller) -> Answer:
-        """Parse the text; a cone is stated by its name, and a move in words."""
+        """Parse the text, and check that it is a case."""
         tables: dict[str, Any] = parse_toml(self.toml, "the file")
-        if "slope" in tables.get("profile", {}):
-            tables = {"cone" if n == "profile" else n: x for n, x in tables.items()}
         Quick(problem=tables).case(caller)
-        if moves := tables["protocol"].get("moves"):
-            said = (
-                x if isinstance(x, str) else " ".join(map(str, chain(*x.items()))) for x in moves
-            )
-            tables["protocol"]["moves"] = [words.replace("_", " ") for words in said]
         return Answer(tables, data={"tables": tables})
 
 
@@ -251,7 +144,7 @@ class Verdict(OfCase):
         try:
             numbers = _numbers(best(question, SOON))
         except InputError as error:
-            refused = f"{str(error)[:1].upper()}{str(error)[1:]}."
+            refused = str(error).removesuffix(f"; {SIMULATE}")
         try:
             advice = advice_on(question)
             words, estimates = advice.statements, advice.estimates
@@ -261,7 +154,7 @@ class Verdict(OfCase):
         unit = _scale(problem, _pulled(problem))
         tiers = [read(each, "tier", "error", "applies", "why") for each in estimates]
         for row, each in zip(tiers, estimates, strict=True):
-            row["value"] = None if each.pull_off_force is None else each.pull_off_force * unit
+            row["value"] = each.pull_off_force and each.pull_off_force * unit
         words = list(dict.fromkeys((*words, *warned)))
         found = {"numbers": numbers, "refused": refused, "words": words, "tiers": tiers}
         return Answer(found, data=found)
@@ -331,7 +224,7 @@ def _moduli(material: Any) -> dict[str, Any]:
 def _elastic(problem: Any, found: dict[str, Any]) -> None:
     """Add the curve of the relaxed solid, from the start to detachment on a rigid drive."""
     if isinstance(problem.geometry, geometry.Disc):
-        found["notes"].append("the JKR curve of a disc, which detaches as a whole, is not drawn")
+        found["notes"].append("The JKR curve of a disc, which detaches as a whole, is not drawn.")
         return
     solid: Any = {
         "body": problem.body,
@@ -345,7 +238,7 @@ def _elastic(problem: Any, found: dict[str, Any]) -> None:
     radii = [x.contact_radius for x in contacts if x is not None]
     start = max((a for a in radii if a < _LARGEST * unit), default=None)
     if start is None:
-        found["notes"].append("JKR has no contact at the start depth or force")
+        found["notes"].append("JKR has no contact at the start depth or force.")
     radii = np.linspace(_USUAL * unit if start is None else start, last, _POINTS)
     found["curves"]["elastic"] = _curve(
         "infinitely slow, short range (JKR)", depth(radii), force(radii)
@@ -406,14 +299,11 @@ def _learned(problem: Any, found: dict[str, Any]) -> None:
     """Add the surrogate, if the case is in its range."""
     try:
         answer = predict(problem, budget=AT_ONCE)
-    except OutOfRange as error:
-        found["notes"].append(f"surrogate: {error}")
+    except OutOfRange:  # the tiers give the reason
         return
     load, curve = _scale(problem, _pulled(problem)), answer.curve
     found["numbers"] = _numbers(answer)
-    if curve is None:
-        found["notes"].append(f"surrogate: {answer.why}")
-    else:
+    if curve is not None:
         count = "6,000" if isinstance(problem.geometry, geometry.FlatPunch) else "30,000"
         found["curves"]["surrogate"] = _curve(
             f"learned from {count} simulations",

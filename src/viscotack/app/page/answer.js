@@ -15,8 +15,8 @@ export function answer(host, store) {
     if (refused.textContent !== words) refused.textContent = words;
     if (!best || best === drawn) return;
     drawn = best;
-    const [first] = best, { words: name, unit } = first ? quick.axes[first.name] : quick.axes.pulled, why = [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join(" ");
-    const texts = first ? [name, said(first.value, unit), bandOf(first), `by the ${first.method}${first.why ? `: ${first.why}` : ""}`] : [name, "no answer", "", why];
+    const [first] = best, { words: name, unit } = first ? quick.axes[first.name] : quick.axes.pulled, why = [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join("; ");
+    const texts = first ? [name, said(first.value, unit), bandOf(first), `method: ${first.method}${first.why ? `; ${first.why}` : ""}`] : [name, "no answer", "", why];
     lines.forEach((line, i) => { if (line.textContent !== texts[i]) line.textContent = texts[i]; });
     lines[3].title = texts[3];
   });
@@ -27,5 +27,6 @@ export const bandOf = ({ band, error }) => shown(band || (error ? `numerical err
 // "the problem, [sphere] radius is missing; write for example radius = "5 mm"" -> its table, and words that fit a field.
 export function refusalOf(refused) {
   const [, table = "", rest] = /^the problem(?:, \[([\w-]+)\])?:? ?(.*)/s.exec(refused) || [null, "", refused];
-  return { table, words: rest.replace(/write for example \w+ = "?([^"]*)"?/, "for example $1") };
+  const lines = rest.replaceAll(/\[\[.*?\]\]/g, (pairs) => pairs.replaceAll("], [", "; ").replaceAll(/[[\]"']/g, ""));
+  return { table, words: lines.replace(/write for example (?:\w+ = )?"?([^"]*)"?/, "for example $1") };
 }

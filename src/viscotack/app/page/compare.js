@@ -1,7 +1,7 @@
 // Up to four cases beside each other.
 
 import { MOST_KEPT, button, h, table } from "./dom.js";
-import { said, shown as words } from "./numbers.js";
+import { moveOf, said, shown as words } from "./numbers.js";
 import { Plot } from "./plot.js";
 
 export function compare(host, store) {
@@ -27,7 +27,7 @@ export function compare(host, store) {
     const names = new Set(kept.flatMap(({ tables }) => Object.entries(tables).flatMap(([name, table]) => Object.keys(table).map((key) => `${name}.${key}`))));
     const stated = [...names].map((name) => [name.replace(".", ": ").replaceAll("_", " "), ...kept.map(({ tables }) => {
       const [table, key] = name.split("."), value = tables[table]?.[key];
-      return Array.isArray(value) ? value.join("; ") : words(value);
+      return Array.isArray(value) ? value.map(moveOf).join("; ") : words(value);
     })]);
     const number = (key, axis) => kept.map(({ answer, quick }) => said(answer ? answer[key] : quick.numbers.find(({ name }) => name === axis(quick).name)?.value, axis(quick).unit));
     return [

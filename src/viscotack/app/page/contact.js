@@ -43,16 +43,16 @@ export function contact(host, store) {
   function draw() {
     const { quick, run, tables } = store;
     if (!quick) return;
-    const done = store.simulated, growing = ["queued", "running"].includes(run.state), stale = run.version !== store.version;
-    state(run, growing, stale);
-    curves(quick, run, growing, stale);
+    const done = store.simulated;
+    state(run, ["queued", "running"].includes(run.state), run.version !== store.version);
+    drawCurves(plot, store);
     fill(drawing, tables, () => { const host = h("div"); host.innerHTML = setUp(tables); return [host]; });
     tell(quick, done);
     compare(quick, done);
     speed(quick, done);
-    const verdict = store.now("verdict"), notes = verdict?.refused ? [verdict.refused] : quick.notes.map((note) => `${note[0].toUpperCase()}${note.slice(1)}.`);
-    fill(words, [notes, verdict?.words], () => [...notes, ...(verdict ? verdict.words : ["…"])].map((line) => h("li", {}, shown(line))));
-    judged.hidden = !words.children.length;
+    const verdict = store.now("verdict");
+    fill(words, [quick.notes, verdict?.words], () => [...quick.notes, ...(verdict ? verdict.words : ["…"])].map((line) => h("li", {}, shown(line))));
+    judged.hidden = store.refused || !words.children.length;
     if (done !== answer) {
       answer = done;
       curve = done && done.curve;
@@ -76,23 +76,6 @@ export function contact(host, store) {
     }[run.state];
     if (status.textContent !== text) status.textContent = text;
     status.classList.toggle("refused", ["refused", "stopped"].includes(run.state));
-  }
-
-  function curves({ axes, curves: { elastic, edge, surrogate } }, run, growing, stale) {
-    const series = [], line = (one, more) => series.push({ kind: "line", x: one.depth, y: one.force, words: one.words, ...more });
-    const crack = store.now("theory")?.crack;
-    if (elastic) line(elastic, { colour: "c6", dash: true });
-    if (crack) line(crack, { colour: "c2", words: `theory: ${crack.words}` });
-    else if (edge) line(edge, { colour: "c2", dash: !edge.applies, faint: !edge.applies, beside: !edge.applies, words: `theory: ${edge.words}${edge.applies ? "" : " (does not apply here)"}` });
-    if (surrogate) {
-      // the interval was measured at the pull-off, and is drawn there
-      const { depth, interval, confidence } = surrogate, place = depth.at(-1), reach = 0.22 * (Math.max(...depth) - Math.min(...depth));
-      series.push({ kind: "band", x: [place - reach, place + reach], low: [-interval[1], -interval[1]], high: [-interval[0], -interval[0]], colour: "c1", words: `learned: pull-off, ${Math.round(100 * confidence)} % of cases` });
-      line(surrogate, { colour: "c1", width: 7, opacity: 0.45 });
-    }
-    line(run.answer?.curve || run, { colour: "c0", faint: stale, beside: stale, tracked: !stale, width: 2.8, words: stale ? "simulation of the case before" : growing ? "simulation, as it runs" : "simulation" });
-    for (const one of store.rig?.curves.slice(0, 3) || []) series.push({ kind: "points", x: one.depth, y: one.force, colour: "c3", size: 1.5, words: `measured: ${one.file}` });
-    plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series);
   }
 
   // What belongs to the answer: the work, and the simulation that judges both.
@@ -133,8 +116,7 @@ export function contact(host, store) {
     const series = found ? ofSpeeds(found) : [];
     if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
     if (rig) series.push(measured(rig));
-    speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, series);
-    if (!found && known) { speeds.legend.textContent = "no theory, and nothing learned, answers at other speeds; a campaign does"; return; }
+    speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, series, known && !found ? "no theory or surrogate answers at other speeds" : undefined);
     if (!found) return;
     const away = found.speed.map((x) => Math.abs(Math.log(x / found.here)));
     speeds.point(found.here, pull ?? found.force[away.indexOf(Math.min(...away))], "this case");
@@ -167,6 +149,25 @@ export function contact(host, store) {
       return [host];
     });
   }
+}
+
+// Load against depth: by theories, learned, simulated and measured.
+export function drawCurves(plot, store) {
+  const { quick: { axes, curves: { elastic, edge, surrogate } }, run, rig } = store, stale = run.version !== store.version, growing = ["queued", "running"].includes(run.state);
+  const series = [], line = (one, more) => series.push({ kind: "line", x: one.depth, y: one.force, words: one.words, ...more });
+  const crack = store.now("theory")?.crack;
+  if (elastic) line(elastic, { colour: "c6", dash: true });
+  if (crack) line(crack, { colour: "c2", words: `theory: ${crack.words}` });
+  else if (edge) line(edge, { colour: "c2", dash: !edge.applies, faint: !edge.applies, beside: !edge.applies, words: `theory: ${edge.words}${edge.applies ? "" : " (does not apply here)"}` });
+  if (surrogate) {
+    // the interval was measured at the pull-off, and is drawn there
+    const { depth, interval, confidence } = surrogate, place = depth.at(-1), reach = 0.22 * (Math.max(...depth) - Math.min(...depth));
+    series.push({ kind: "band", x: [place - reach, place + reach], low: [-interval[1], -interval[1]], high: [-interval[0], -interval[0]], colour: "c1", words: `learned: pull-off, ${Math.round(100 * confidence)} % of cases` });
+    line(surrogate, { colour: "c1", width: 7, opacity: 0.45 });
+  }
+  line(run.answer?.curve || run, { colour: "c0", faint: stale, beside: stale, tracked: !stale, width: 2.8, words: stale ? "simulation of the case before" : growing ? "simulation, as it runs" : "simulation of the case" });
+  (rig?.curves || []).slice(0, 9).forEach((one, i) => series.push({ kind: "points", x: one.depth, y: one.force, colour: ["c3", "c4", "c5", "ink"][i % 4], size: 1.6, words: `${one.file}, ${said(one.speed_m_s, "m/s", 2)}` }));
+  plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series);
 }
 
 // The pull-off at other speeds with its band, and what was measured there.

@@ -41,14 +41,13 @@ export function setUp(tables) {
 // Half its width, its height above the tip by the distance from the axis, how tall it is drawn, and its name.
 function indenter({ punch, cone, profile, sphere, ...others }, reach) {
   if (punch) return { half: 30 + 80 * squash(si(punch.half_width), 1e-5, 1e-2), rise: () => 0, tall: 34, called: `2a, a = ${words(punch.half_width)}` };
-  const exponent = cone ? 1 : Number(profile?.exponent) || 1, high = cone ? 20 + 60 * squash(Number(cone.slope), 0.005, 1) : 60;
-  if (cone || profile) return { half: 110, rise: (x) => high * (x / 110) ** exponent, tall: 78, called: cone ? `slope ${words(cone.slope)}` : `A r^${words(profile.exponent)}` };
+  const slope = (cone || profile)?.slope, exponent = Number(profile?.exponent) || 1, high = slope ? 20 + 60 * squash(Number(slope), 0.005, 1) : 60;
+  if (cone || profile) return { half: 110, rise: (x) => high * (x / 110) ** exponent, tall: 78, called: slope ? `slope ${words(slope)}` : `A r^${words(profile.exponent)}` };
   const R = Math.max(60 + 80 * squash(si(sphere?.radius), 1e-5, 1e-1), reach);
   const half = Math.min(R, 130, Math.sqrt(R * R - Math.max(R - 70, 0) ** 2));
   const name = Object.keys(others).find((word) => !["material", "interface", "protocol", "layer"].includes(word)) || "";
   return { half, rise: (x) => R - Math.sqrt(R * R - x * x), tall: 78, called: sphere ? `R = ${words(sphere.radius)}` : name };
 }
-
 
 // The surface at one instant, as simulated: the body below, the indenter above, pressure between. Depth is counted from
 // where undeformed surfaces are at their equilibrium gap, which is `length`.

@@ -1,13 +1,14 @@
-// The fields of the case, made from what the server says can be asked: no noun is known by name.
+// The fields of the case, made from the JSON schema of a problem: no noun is known by name.
 
 import { refusalOf } from "./answer.js";
 import { button, fill, fold, h, selection } from "./dom.js";
-import { read, said, shown, sliderOf, written } from "./numbers.js";
-
-const ROOM = 12; // characters of a field
+import { moveOf, read, said, shown, sliderOf, written } from "./numbers.js";
 
 export function fields(form, store) {
-  const { forms } = store;
+  const { schema: { else: { properties, oneOf }, $defs: tables }, starts, materials } = store.forms, named = ({ $ref }) => $ref.split("/")[2];
+  // the tables that numbers state, not a file; of a law that grows, the one on the usual law at rest
+  const offered = (words) => words.filter((word) => !word.includes("-on-") && cardsOf(word).some(({ optional }) => !optional));
+  const kinds = { material: offered(properties.material.anyOf.map(named)), interface: offered(properties.interface.anyOf.map(named)), shape: offered(oneOf.map(({ required: [word] }) => word)) };
   // on a phone the indenter and the test, and all that is drawn of them, come first
   const closed = new Set(matchMedia("(max-width: 46rem)").matches ? ["Material", "Interface", "Simulation"] : []);
   let all = []; // of the form: table, key, row, input, and put, which shows the value of the case
@@ -21,10 +22,24 @@ export function fields(form, store) {
   });
   store.on("quick", mark);
 
+  // What a table states: what it needs, what one of its alternatives needs, and what it may have; `or` may be in place of one.
+  function cardsOf(word, table = {}) {
+    const { properties, required, oneOf = [] } = tables[word], ways = oneOf.map((way) => way.required), now = ways.find((way) => way.every((key) => key in table)) || ways[0] || [];
+    const others = ways.filter((way) => way !== now), or = now.length === 1 ? others.find(([key, more]) => !more && properties[key].unit)?.[0] : null;
+    return Object.entries(properties).filter(([key, { unit, units, enum: words }]) => (unit || units || words) && (now.includes(key) || !others.flat().includes(key)))
+      .map(([key, card]) => ({ key, ...card, optional: ![...required, ...now].includes(key), or: or && key === now[0] ? { key: or, ...properties[or] } : null }));
+  }
+
   function parts() {
-    const { tables } = store, shape = forms.shape.find(({ word }) => word in tables) || forms.shape[0];
-    return [indenter(shape), shape.symmetry === "plane" ? layer() : null, test(forms.protocol[shape.symmetry]),
-      kind("Material", "material", "model", forms.materials), kind("Interface", "interface", "law", []), simulation()].filter(Boolean);
+    const shape = kinds.shape.find((word) => word in store.tables) || kinds.shape[0], layer = cardsOf("layer").filter(({ optional }) => !optional);
+    return [indenter(shape), store.tables.layer ? group("Layer", rows("layer", layer)) : null, test(testOf(shape)),
+      kind("Material", "material", "model", materials), kind("Interface", "interface", "law", []), simulation()].filter(Boolean);
+  }
+
+  // The keys of the test of a shape, and the ways in which it begins.
+  function testOf(shape) {
+    const keys = tables[tables[shape].symmetry === "plane" ? "protocol-of-a-punch" : "protocol"].properties;
+    return { keys, ways: Object.keys(starts).filter((key) => key in keys), moves: keys.moves.examples[0] };
   }
 
   function group(title, ...children) {
@@ -32,48 +47,36 @@ export function fields(form, store) {
   }
 
   function indenter(shape) {
-    const change = (word) => {
-      const next = forms.shape.find((one) => one.word === word), { [shape.word]: before, layer: under, protocol, ...others } = store.tables;
-      const same = next.symmetry === shape.symmetry, plane = next.symmetry === "plane";
-      store.take({
-        ...others, [word]: values(next.fields), ...(plane ? { layer: { ...values(forms.layer.fields), base: forms.layer.bases[0].word } } : {}),
-        protocol: same ? protocol : begun(forms.protocol[next.symmetry].starts[0], protocol),
-      });
+    const change = (next) => {
+      const { [shape]: before, layer: under, protocol = {}, ...others } = store.tables, same = tables[next].symmetry === tables[shape].symmetry;
+      const layer = tables[next].symmetry === "plane" ? { layer: values(cardsOf("layer")) } : {};
+      store.take({ ...others, [next]: values(cardsOf(next)), ...layer, protocol: same ? protocol : begun(testOf(next), testOf(next).ways[0], { speed: protocol.speed }) });
     };
-    return group("Indenter", selection("Indenter: shape", forms.shape.map(({ word }) => [word, word]), shape.word, change, { id: "choice-shape" }), rows(shape.word, shape.fields));
+    return group("Indenter", selection("Indenter: shape", kinds.shape.map((word) => [word, word]), shape, change, { id: "choice-shape" }), rows(shape, cardsOf(shape, store.tables[shape])));
   }
 
-  function layer() {
-    const change = (base) => store.set("layer", "base", base);
-    return group("Layer", selection("Layer: base", forms.layer.bases.map(({ word }) => [word, word]), store.tables.layer?.base, change, { id: "choice-layer" }), rows("layer", forms.layer.fields));
-  }
-
-  function test({ starts, speed, stiffness, moves }) {
-    const table = store.tables.protocol || {}, now = starts.find(({ key }) => key in table) || starts[0];
-    const change = (key) => store.change({ protocol: begun(starts.find((one) => one.key === key), table) });
-    const lines = area("protocol", { key: "moves", rows: 2, label: "moves before the pull, one a line", example: moves.slice(0, 2).join("\n") }, String, String);
-    const machine = fold("spring of the machine, moves before the pull", rows("protocol", [stiffness]), lines, h("p", { class: "hint" }, `A machine can: ${moves.join("; ")}.`));
+  function test(of) {
+    const { keys, ways, moves } = of, table = store.tables.protocol || {}, now = ways.find((key) => key in table) || ways[0], cards = [now, "speed", "stiffness"].map((key) => ({ key, ...keys[key], optional: key === "stiffness" }));
+    const lines = area("protocol", { key: "moves", rows: 2, label: "moves before the pull, one a line", example: moves.slice(0, 2).join("\n") }, String, moveOf);
+    const machine = fold("spring of the machine, moves before the pull", rows("protocol", cards.slice(2)), lines, h("p", { class: "hint" }, `A machine can: ${moves.join("; ")}.`));
     machine.open = "stiffness" in table || "moves" in table;
-    return group("Test", selection("Test: how it begins", starts.map(({ key, title }) => [key, title]), now.key, change, { id: "choice-start" }), rows("protocol", [now, speed]), machine);
+    return group("Test", selection("Test: how it begins", ways.map((key) => [key, starts[key]]), now, (key) => store.change({ protocol: begun(of, key, table) }), { id: "choice-start" }), rows("protocol", cards.slice(0, 2)), machine);
   }
 
   // A start in place of another; a test that begins apart approaches first.
-  function begun(next, table = {}) {
-    const rest = Object.fromEntries(Object.entries(table).filter(([key]) => !key.startsWith("preload_") && key !== "start"));
-    return { [next.key]: `${next.prefix || ""}${next.example}`, ...(next.prefix ? { moves: ["approach 20 um/s to force 0.5 mN", "dwell 1 s"] } : {}), ...rest };
+  function begun({ keys, ways, moves }, start, table) {
+    const rest = Object.fromEntries(Object.entries(table).filter(([key]) => !ways.includes(key)));
+    return { [start]: keys[start].examples[0], ...(start === "start" ? { moves: moves.slice(0, 2) } : {}), ...rest };
   }
 
   // A material or an interface: its model or law, and for a material the published ones and a laboratory's file.
   function kind(title, table, key, published) {
-    const known = store.tables[table], choice = forms[table].find(({ word }) => word === known?.[key]) || forms[table][0];
-    const change = (word) => {
-      const next = forms[table].find((one) => one.word === word);
-      store.change({ [table]: next ? { [key]: word, ...values(next.fields, known) } : published.find(({ name }) => word === `published ${name}`).table });
-    };
-    const choices = [...forms[table].map(({ word }) => [word, word]), ...published.map(({ name, title: words }) => [`published ${name}`, words])];
+    const before = store.tables[table], words = kinds[table], choice = words.find((word) => word === before?.[key]) || words[0];
+    const change = (word) => store.change({ [table]: words.includes(word) ? { [key]: word, ...values(cardsOf(word, before), before) } : published.find(({ name }) => word === `published ${name}`).table });
+    const choices = [...words.map((word) => [word, word]), ...published.map(({ name, title: called }) => [`published ${name}`, called])];
     const measured = (event) => { document.getElementById("tab-material").click(); store.say("material files", [...event.target.files]); };
     const file = published.length ? h("label", { class: "file" }, "from a DMA, relaxation or creep file …", h("input", { class: "unseen", type: "file", multiple: true, id: "material-file", change: measured })) : null;
-    return group(title, selection(`${title}: kind`, choices, choice.word, change, { id: `choice-${table}` }), h("p", { class: "hint" }, choice.words), file, rows(table, choice.fields));
+    return group(title, selection(`${title}: kind`, choices, choice, change, { id: `choice-${table}` }), h("p", { class: "hint" }, tables[choice].description), file, rows(table, cardsOf(choice, before)));
   }
 
   function simulation() {
@@ -87,33 +90,25 @@ export function fields(form, store) {
 
   // Values of fields: those that are known already, else their examples.
   function values(cards, known = {}) {
-    const found = {};
-    for (const { key, or, optional, kind: of, example } of cards) {
-      const there = [key, or?.key].find((name) => name in known);
-      if (there) found[there] = known[there];
-      else if (!optional) found[key] = of === "pairs" ? JSON.parse(example) : example;
-    }
-    return found;
+    return Object.fromEntries(cards.filter(({ key, optional }) => key in known || !optional).map((card) => [card.key, known[card.key] ?? (card.examples || card.enum)[0]]));
   }
 
   function rows(table, cards) {
     return cards.map((card) => {
-      if (card.kind === "pairs") return area(table, { ...card, rows: 4, label: `${card.words} [${card.units.join(", ")}], a pair a line` }, (line) => line.split(/[,;\t]/).map((cell, i) => valueOf(cell, card.units[i])), (pair) => pair.join(", "));
-      // the same may be said by another number, a range by a strength
-      return card.or && card.or.key in (store.tables[table] || {}) ? row(table, { ...card.or, or: card }) : row(table, card);
+      if (card.enum) return selection(card.description, card.enum.map((word) => [word, word]), store.tables[table]?.[card.key], (word) => store.set(table, card.key, word), { id: `${table}-${card.key}` });
+      if (card.units) return area(table, { ...card, rows: 4, label: `${card.description} [${card.units.join(", ")}], a pair a line` }, (line) => line.split(/[,;\t]/).map((cell, i) => valueOf(cell, card.units[i])), (pair) => pair.join(", "));
+      return row(table, card);
     });
   }
 
   function row(table, card) {
     const id = `${table}-${card.key}`, stated = () => store.tables[table]?.[card.key];
-    const input = h("input", { type: "text", id, spellcheck: "false", placeholder: card.optional ? "none" : card.example, change: () => store.set(table, card.key, valueOf(input.value, card.unit)) });
-    const ends = [h("span"), h("span")], slider = h("input", { type: "range", "aria-label": `${card.words}, slider`, input: () => slide() });
+    const input = h("input", { type: "text", id, spellcheck: "false", placeholder: card.optional ? "none" : card.examples[0], change: () => store.set(table, card.key, valueOf(input.value, card.unit)) });
+    const ends = [h("span"), h("span")], slider = h("input", { type: "range", "aria-label": `${card.description}, slider`, input: () => slide() });
     const track = h("div", { class: "track" }, ends[0], slider, ends[1]);
     let scale = null, quantity = null, dragging = false, before = null;
     const put = () => {
-      // a fit states all digits, more than the field has room for: the state keeps them
-      const all = shown(stated() ?? ""), long = all.length > ROOM ? read(all, card.unit) : null;
-      const text = long?.si ? long.word + said(long.number, long.unit, 6) : all;
+      const text = shown(stated() ?? "");
       if (text === before && text === input.value) return; // a slider that moves leaves the other fields alone
       before = text;
       if (document.activeElement !== input) input.value = text;
@@ -133,9 +128,9 @@ export function fields(form, store) {
     };
     const other = () => {
       const { [card.key]: gone, ...rest } = store.tables[table];
-      store.change({ [table]: { ...rest, [card.or.key]: card.or.example } });
+      store.change({ [table]: { ...rest, [card.or.key]: card.or.examples[0] } });
     };
-    const found = h("div", { class: "field" }, h("label", { for: id, title: card.range ? `must ${card.range}` : null }, card.words, card.symbol ? [" ", h("i", {}, card.symbol)] : null), input, track,
+    const found = h("div", { class: "field" }, h("label", { for: id }, card.description, card.symbol ? [" ", h("i", {}, card.symbol)] : null), input, track,
       card.or ? button(`state the ${card.or.key.replaceAll("_", " ")} instead`, other, { class: "hint whole" }) : null);
     all.push({ table, key: card.key, row: found, input, put });
     return found;
@@ -154,9 +149,9 @@ export function fields(form, store) {
 
   // Say a refusal at the field that it names; where it names only a table, at the field whose words it quotes.
   function mark() {
-    const { table, words } = refusalOf(store.refused), here = table ? all.filter((field) => field.table === table) : [];
+    const { table, words } = refusalOf(store.refused), here = all.filter((field) => !table || field.table === table);
     const quoted = ({ input }) => input.value.split("\n").some((line) => line && words.includes(`'${line}'`));
-    const wrong = here.find(({ key }) => words.split(/[ :]/)[0] === key) || here.find(quoted) || here[0];
+    const wrong = here.find(({ key }) => words.split(/[ :]/)[0] === key) || here.find(quoted) || (table ? here[0] : null);
     for (const field of all) {
       const is = field === wrong, { row: place, input } = field;
       place.classList.toggle("wrong", is);

@@ -28,11 +28,18 @@ export function said(value, unit, count = 4) {
 }
 
 export const percent = (share) => `${digits(100 * share, 2)} %`;
-// A number in SI as a file states it, and what a user typed as it is shown: keyboards have a "u" for micro.
+// A number in SI as a file states it: keyboards have a "u" for micro.
 export const quantity = (number, unit) => said(number, unit).replace("µ", "u");
-export const shown = (text) => String(text ?? "–").replace(/(\d\s*)u(?=[mNsJP])/g, "$1µ");
 
 const QUANTITY = /^\s*([a-z]+ )?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*((?![,.\d]).*?)\s*$/i;
+// A fit states all digits of a number in SI, more than there is room for: the state keeps them.
+export function shown(text) {
+  const [, word = "", number = "", unit] = QUANTITY.exec(text) || [];
+  return (/\.0$|e-|.{9}/.test(number) ? word + said(Number(number), unit, 6) : String(text ?? "–")).replace(/(\d\s*)u(?=[mNsJP])/g, "$1µ");
+}
+
+// A move of a machine in words: a file may state it as a table, { approach = "10 um/s", to_force = "1 mN" }.
+export const moveOf = (move) => (move.constructor === Object ? Object.entries(move).flat().join(" ").replaceAll("_", " ") : move);
 
 // "apart 20 um" -> its word and number, in SI where its unit is the given one with a prefix, else in
 // the unit it has; null where it is no number.
@@ -51,19 +58,19 @@ export function written({ word, number, unit, si }) {
   return word + (si ? quantity(number, unit) : `${Number(number.toPrecision(4))} ${unit}`.trim());
 }
 
-// The slider of a field: from the least to the most that its card allows, in about a hundred steps; where only
+// The slider of a field: from the least to the most that its schema allows, in about a hundred steps; where only
 // the sign is known, over four decades around its example in steps of 12 % (20 a decade, the series R20); else to
 // twice the number on both sides. A number beyond widens the slider; one that is not allowed has none. `at` turns a
 // place into a number, `of` a number into a place.
 export function sliderOf(card, { number, si }) {
-  const low = card.least ?? card.above, high = card.most, example = (si && Math.abs(read(card.example, card.unit)?.number)) || number;
+  const low = card.minimum ?? card.exclusiveMinimum, high = card.maximum, example = (si && Math.abs(read(card.examples[0], card.unit)?.number)) || number;
   const steps = (span) => { const power = 10 ** Math.floor(Math.log10(span / 50)); return Number(([5, 2, 1].find((x) => x * power <= span / 50) * power).toPrecision(1)); };
-  if (low !== null && high !== null) {
+  if (low !== undefined && high !== undefined) {
     const step = steps(high - low);
-    return linear(card.least === null ? low + step : low, high, step);
+    return linear(card.minimum === undefined ? low + step : low, high, step);
   }
-  if (low !== null && number <= low) return null;
-  if (low === null || low < 0) {
+  if (number <= low) return null;
+  if (low === undefined || low < 0) {
     const reach = 2 * Math.max(example, Math.abs(number)) || 1, step = steps(2 * reach), end = Math.ceil(reach / step) * step;
     return linear(-end, end, step);
   }

@@ -1,13 +1,11 @@
 // The rig: a tack test beside the forecast of the case, and what it says of the interface.
 
-import { measured, ofSpeeds } from "./contact.js";
+import { drawCurves, measured, ofSpeeds } from "./contact.js";
 import { button, h, table } from "./dom.js";
 import { reader } from "./form.js";
 import { quantity, said } from "./numbers.js";
 import { Plot } from "./plot.js";
 import { tomlOf } from "./record.js";
-
-const COLOURS = ["c3", "c4", "c5", "ink"];
 
 export function rig(host, store) {
   const left = h("section", { class: "card main" }), cycles = h("div"), below = h("section", { class: "card wide", hidden: true }, h("h2", {}, "Cycles"), cycles);
@@ -50,15 +48,10 @@ export function rig(host, store) {
   }
 
   function draw() {
-    const { quick, simulated, rig: found } = store;
+    const { quick, rig: found } = store;
     if (!quick || host.hidden) return;
-    const { axes, curves: { elastic, surrogate, edge } } = quick, curves = found?.curves || [];
-    const line = (one, colour, words = one?.words, dash = false) => (one ? [{ kind: "line", x: one.depth, y: one.force, colour, words, dash }] : []);
-    plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, [
-      ...line(elastic, "c6", elastic?.words, true), ...line(edge?.applies ? edge : null, "c2", `theory: ${edge?.words}`), ...line(surrogate, "c1"), ...line(simulated?.curve, "c0", "simulation of the case"),
-      ...curves.slice(0, 9).map((one, i) => ({ kind: "points", x: one.depth, y: one.force, colour: COLOURS[i % COLOURS.length], size: 1.6, words: `${one.file}, ${said(one.speed_m_s, "m/s", 2)}` })),
-    ]);
+    drawCurves(plot, store);
     speeds.card.hidden = !found;
-    if (found) speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pulled, least: 0 } }, [...(store.theory?.speeds ? ofSpeeds(store.theory.speeds) : []), measured(found)]);
+    if (found) speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, [...(store.theory?.speeds ? ofSpeeds(store.theory.speeds) : []), measured(found)]);
   }
 }

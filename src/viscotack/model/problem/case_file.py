@@ -699,7 +699,9 @@ _Radius = Annotated[float, cards(AtRadius)["contact_radius"].card]
 _Apart = Annotated[float, cards(Apart)["gap"].card]
 _Stress = Annotated[
     float,
-    Quantity("Pa", "p", "mean stress of the relaxed start of a punch", measure="force"),
+    Quantity(
+        "Pa", "p", "mean stress of the relaxed start, positive in compression", measure="force"
+    ),
 ]
 
 

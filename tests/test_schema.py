@@ -1,0 +1,110 @@
+"""The JSON schema of a problem against the reader: both accept, or refuse, the same tables."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import viscotack as vt
+from stated import LENS
+from viscotack.model.problem.case_file import problem_of
+from viscotack.model.problem.nouns import known
+from viscotack.model.problem.schema import schema
+from viscotack.model.tables import Reading
+
+jsonschema = pytest.importorskip("jsonschema_rs", reason="pip install viscotack[outside]")
+FOLDER = Path(__file__).parents[1] / "examples"
+CASES = [*(FOLDER / "from_toml").glob("*.toml"), *(FOLDER / "rough").glob("*.toml")]
+SCHEMA = schema()
+VALIDATOR = jsonschema.validator_for(SCHEMA)
+
+
+def stated(tables, *, bare=False):
+    """Whether a problem is read, after seeing that the schema says the same."""
+    try:
+        problem_of(tables, Reading("the case", known(), (FOLDER / "from_toml").joinpath, bare=bare))
+    except vt.InputError as error:
+        refused = str(error)
+    else:
+        refused = ""
+    assert VALIDATOR.is_valid(tables) == (not refused), (
+        refused,
+        [x.message for x in VALIDATOR.iter_errors(tables)],
+    )
+    return not refused
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_files_of_problems_and_their_json_are_valid(path):
+    assert jsonschema.meta.is_valid(SCHEMA)
+    tables = tomllib.loads(path.read_text())
+    assert stated(tables)
+    problem = problem_of(tables, Reading("the case", known(), path.parent.joinpath))
+    assert stated(vt.to_dict(problem), bare=True)
+
+
+SPHERE = tomllib.loads(LENS)
+PAD = tomllib.loads((FOLDER / "from_toml/pad.toml").read_text())
+PURE = {
+    "groups": {"tabor": 3.24, "preload": 73, "rate": 316.23},
+    "material": {"model": "power-law", "modulus_ratio": 0.1, "exponent": 0.8},
+}
+
+
+@pytest.mark.parametrize("tables", [SPHERE, PAD, PURE], ids=["sphere", "punch", "groups"])
+def test_a_table_or_key_that_is_left_out_or_unknown_is_refused_by_both(tables):
+    assert stated(tables)
+    assert not stated(tables | {"ball": {"radius": "1 mm"}})
+    for name, table in tables.items():
+        assert not stated({x: y for x, y in tables.items() if x != name})
+        assert not stated(tables | {name: table | {"unknown": "1 mm"}})
+        for key in table:
+            less = {x: y for x, y in table.items() if x != key}
+            assert not stated(tables | {name: less}), (name, key)
+
+
+@pytest.mark.parametrize(
+    ("of", "table", "change"),
+    [
+        (SPHERE, "material", {"model": "rubber"}),
+        (SPHERE, "interface", {"law": "glue"}),
+        (PAD, "layer", {"base": "glued"}),
+        (SPHERE, "sphere", {"radius": "-5 mm"}),
+        (SPHERE, "sphere", {"radius": "0 mm"}),
+        (SPHERE, "material", {"poisson_ratio": 0.51}),
+        (SPHERE, "material", {"poisson_ratio": -0.1}),
+        (SPHERE, "material", {"modulus_ratio": 0.1}),
+        (SPHERE, "interface", {"strength": "1 MPa"}),
+        (SPHERE, "interface", {"law": "exponential"}),
+        (SPHERE, "protocol", {"preload_depth": "1 um"}),
+        (SPHERE, "protocol", {"preload_stress": "1 kPa"}),
+        (PAD, "protocol", {"preload_force": "1 mN"}),
+        (SPHERE, "protocol", {"cycles": 0}),
+        (SPHERE, "protocol", {"moves": "dwell 1 s"}),
+        (SPHERE, "cone", {"slope": 0.1}),
+        (PURE, "groups", {"cohesion": 0.1}),
+        (PURE, "material", {"modulus_ratio": 2}),
+        (PURE, "protocol", {"speed": "1 um/s"}),
+    ],
+)
+def test_a_wrong_word_or_number_is_refused_by_both(of, table, change):
+    assert not stated(of | {table: of.get(table, {}) | change})
+
+
+@pytest.mark.parametrize(
+    ("table", "keys"),
+    [
+        ("interface", {"law": "gent-schultz", "reference_speed": "1 um/s", "exponent": 0.4}),
+        ("interface", {"law": "saturating-ageing", "base": "exponential", "decay": 0.3}),
+        ("interface", {"law": "eyring", "base": "dugdale", "decay": 0.3}),
+        ("material", {"model": "prony", "branches": [["5 MPa", "1 ms"]]}),
+        ("material", {"passport": "pdms-10-1", "temperature": "-20 degC"}),
+    ],
+)
+def test_other_laws_and_materials(table, keys):
+    given = SPHERE[table] if table == "interface" else {}
+    if keys.get("model") == "prony":
+        given = {x: SPHERE[table][x] for x in ("rubbery_modulus", "poisson_ratio")}
+    grown = {"reference_time": "1 s", "largest_growth": 3}
+    more = grown if keys.get("law") == "saturating-ageing" else {}
+    assert stated(SPHERE | {table: given | keys | more}) == (keys.get("law") != "eyring")
