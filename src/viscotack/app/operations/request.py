@@ -353,7 +353,10 @@ def described(kind: type[Request]) -> dict[str, Any]:
         "summary": summary(kind),
         "help": cleandoc(kind.__doc__ or ""),
         "options": [_described(name, info) for name, info in options(kind).items()],
-        "outputs": [{"name": x.name, "words": x.words, "kind": x.kind} for x in kind.outputs],
+        "outputs": [
+            {"name": x.name, "words": x.words, "kind": x.kind, "endings": x.endings}
+            for x in kind.outputs
+        ],
         "local": kind.local,
     }
 

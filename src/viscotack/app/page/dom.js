@@ -47,7 +47,7 @@ export function fill(host, key, make) {
 // A place for files: a browser's field takes those that are dropped on it as well.
 export function dropped(words, id, take) {
   const change = ({ target }) => target.files.length && take([...target.files]);
-  return h("div", { class: "drop" }, h("label", { for: id }, `Drop ${words} here, or choose them`), h("input", { type: "file", multiple: true, id, change }));
+  return h("div", { class: "drop" }, h("label", { for: id }, `Drop ${words} here, or choose`), h("input", { type: "file", multiple: true, id, change }));
 }
 
 export function save(name, content) {

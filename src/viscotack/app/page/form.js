@@ -19,7 +19,7 @@ export class Form {
   refused(words) {
     const spelt = (name) => [`\`${name}\``, `--${name.replaceAll("_", "-")}`, ...(name.includes("_") ? [name] : [])];
     const named = this.fields.filter(({ name }) => spelt(name).some((spelling) => words.includes(spelling)) || RegExp(`^${name}[ :]`).test(words));
-    for (const { row } of named) this.needed.append(row);
+    for (const { row } of named) if (!this.needed.contains(row)) this.needed.append(row);
     named.find(({ input }) => !input.value)?.input.focus();
     let said = words.replace(/; for example: viscotack .*$/s, "");
     for (const { name } of named) for (const spelling of spelt(name)) said = said.replaceAll(spelling, name.replaceAll("_", " "));

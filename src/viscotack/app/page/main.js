@@ -48,7 +48,9 @@ async function restore(store) {
   let state = {};
   try {
     state = JSON.parse(new URLSearchParams(location.search).get("state")) || {};
+    for (const each of [state.case || {}, ...(state.kept || [])]) if (!Object.values(each).every((table) => table instanceof Object)) throw new TypeError();
   } catch {
+    state = {};
     at("status").textContent = "the link is not whole; the first example is shown";
   }
   const { case: tables, kept = [], ...settings } = state;
@@ -67,7 +69,7 @@ function tabs(store) {
     const one = { id, panel, tab: h("button", { type: "button", id: `tab-${id}`, role: "tab", "aria-controls": panel.id, click: () => show(one) }, words) };
     at("tabs").append(one.tab);
     at("content").append(panel);
-    one.view = make(panel, store) || {};
+    one.view = make(panel, store, words) || {};
     return one;
   });
   const show = (chosen) => {

@@ -6,10 +6,9 @@ import { Form, compute } from "./form.js";
 const EXAMPLES = ["design", "window", "array", "rough"];
 // What a command line says of files, which the page saves by buttons.
 const ON_THE_LINE = /(; - is standard output|,? to an? \.\w+.*)\.?$/;
-const ENDINGS = { csv: ".csv", c: ".h", fmu: ".fmu", parquet: ".parquet", mat: ".mat", xlsx: ".xlsx", maps: ".npz", film: ".gif" };
 
 // A view of some operations, or of all; alone, without the case of the page, where they are named.
-export const operations = (id, ...words) => (host, store) => {
+export const operations = (id, ...words) => (host, store, title) => {
   const known = words.length ? words.map((word) => store.operations[word]) : Object.values(store.operations).filter(({ local }) => !local);
   const place = h("div"), told = h("div", { role: "status" }), [view, asked] = decodeURIComponent(location.hash.slice(1)).split("=");
   let operation = known.find(({ word }) => view === id && word === asked) || known[0];
@@ -17,7 +16,7 @@ export const operations = (id, ...words) => (host, store) => {
   const choice = selection("Task", known.map(({ word }) => [word, word]), operation.word, chosen, { id });
   const hash = () => (known.length > 1 ? `${id}=${encodeURIComponent(operation.word)}` : id);
   host.append(h("div", { class: "view asked" },
-    h("section", { class: "card side" }, known.length > 1 ? [h("label", { for: id }, "Task"), choice] : h("h2", {}, operation.word), place),
+    h("section", { class: "card side" }, known.length > 1 ? [h("label", { for: id }, "Task"), choice] : h("h2", {}, title), place),
     h("section", { class: "card main" }, h("h2", {}, "Answer"), told)));
   show();
   return { hash, alone: words.length > 0 };
@@ -68,10 +67,9 @@ export const operations = (id, ...words) => (host, store) => {
 
   function tell({ beside: { words: said, notes, files = {} }, ...record }) {
     const text = JSON.stringify(record, null, 2), pictures = [], saves = [button("Save as JSON", () => save("answer.json", text))];
-    for (const { name, kind, words: of } of operation.outputs.filter((one) => one.name in files)) {
+    for (const { name, kind, endings: [ending = ""] } of operation.outputs.filter((one) => one.name in files)) {
       if (kind === "picture") { pictures.push(picture(files[name], `${operation.word}: ${name}`)); continue; }
       const content = kind === "binary" ? new Blob([Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0))]) : files[name];
-      const ending = ENDINGS[name] || /FILE(\.\w+)/.exec(of)?.[1] || (/a row|table|Write (force|depth)/.test(of) ? ".csv" : "");
       saves.push(button(`Save ${name}`, () => save(`${operation.path.replaceAll("/", "-")}-${name}${ending}`, content)));
     }
     // sentences are wrapped, rows of a table are not

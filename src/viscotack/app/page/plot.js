@@ -26,9 +26,9 @@ export class Plot {
   }
 
   // axes: { x: { words, unit, log, turned, least, most }, y }; a series: { kind, x, y, colour, words } and how it looks;
-  // one `beside` does not widen the axes.
-  draw(axes, series) {
-    this.axes = axes;
+  // one `beside` does not widen the axes; `empty` says why there is none.
+  draw(axes, series, empty = "nothing to draw here yet") {
+    Object.assign(this, { axes, empty });
     this.series = series.filter(({ x }) => x.length);
     this.cursor = null;
     this.paint();
@@ -36,12 +36,12 @@ export class Plot {
 
   paint() {
     if (!this.axes || !this.card.clientWidth) return;
-    const { height, axes, series, svg } = this, width = this.width = Math.max(Math.round(this.card.clientWidth), 240);
+    const { height, axes, series, svg, empty } = this, width = this.width = Math.max(Math.round(this.card.clientWidth), 240);
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     this.legend.replaceChildren(...series.filter(({ words }) => words).map(({ kind, dash, faint, colour, words }) => h("li", { class: kind === "line" && dash ? "dash" : kind, style: faint ? "opacity: .75" : null }, h("span", { style: `border-color: var(--${colour})` }), words)));
     if (!series.length) {
-      svg.innerHTML = `<text x="${width / 2}" y="${height / 2}" text-anchor="middle" font-size="13" fill="var(--quiet)">nothing to draw here yet</text>`;
+      svg.innerHTML = `<text x="${width / 2}" y="${height / 2}" text-anchor="middle" font-size="13" fill="var(--quiet)">${empty}</text>`;
       return;
     }
     const drawn = series.filter(({ beside }) => !beside), right = width - RIGHT, foot = height - BOTTOM;
@@ -117,8 +117,9 @@ export class Plot {
 
   // The picture by itself, with its legend and with colours in place of their names.
   text() {
-    const style = getComputedStyle(document.documentElement), { width, height } = this;
-    const rows = this.series.filter(({ words }) => words).map(({ colour, words }, i) => `<g transform="translate(${LEFT} ${height + 14 + 18 * i})"><path d="M0 -4h24" stroke="var(--${colour})" stroke-width="3"/><text x="32" font-size="12" fill="var(--ink)">${escape(words)}</text></g>`);
+    const style = getComputedStyle(document.documentElement), { height } = this, said = this.series.filter(({ words }) => words);
+    const width = Math.max(this.width, ...said.map(({ words }) => LEFT + 40 + 7 * words.length)); // of a phone, for all words
+    const rows = said.map(({ colour, words }, i) => `<g transform="translate(${LEFT} ${height + 14 + 18 * i})"><path d="M0 -4h24" stroke="var(--${colour})" stroke-width="3"/><text x="32" font-size="12" fill="var(--ink)">${escape(words)}</text></g>`);
     const whole = height + 18 * rows.length + 8;
     return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${whole}" viewBox="0 0 ${width} ${whole}" font-family="sans-serif"><rect width="100%" height="100%" fill="var(--paper)"/>${this.svg.innerHTML}${rows.join("")}</svg>`
       .replaceAll(/var\((--[a-z0-9]+)\)/g, (_, name) => style.getPropertyValue(name).trim());

@@ -20,7 +20,7 @@ export function record(host, store) {
 
   function text(title, what, file) {
     const shown = h("pre", { tabindex: 0, role: "region", "aria-label": title, id: `record-${title.toLowerCase().replaceAll(" ", "-")}` });
-    const keep = file ? button("save", () => save(file, shown.textContent), { "aria-label": `Save: ${title}` }) : null;
+    const keep = file ? button("save", () => save(file, shown.textContent), { class: "copy", "aria-label": `Save: ${title}` }) : null;
     texts.push([shown, what]);
     return [h("div", { class: "head" }, h("h2", {}, title), copied(`Copy: ${title}`, () => shown.textContent), keep), shown];
   }
