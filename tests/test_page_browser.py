@@ -111,6 +111,21 @@ def test_a_number_that_is_impossible_is_refused_where_it_stands(page, server):
     page.wait_for_selector(".problem:text('approach fast')")
 
 
+def test_other_shapes_starts_and_alternatives_of_a_number_are_answered(page, server):
+    opened(page, server[0])
+    page.click("text=state the modulus ratio instead")
+    page.select_option("#choice-material", "sls")
+    at_rest(page)
+    assert page.input_value("#material-modulus_ratio") == "0.1"
+    page.select_option("#choice-shape", "punch")
+    at_rest(page)
+    page.select_option("#choice-start", "start")  # moves of a punch go to a stress, not to a force
+    at_rest(page)
+    page.select_option("#layer-base", "bonded")
+    page.wait_for_selector(".problem:text('poisson_ratio of a bonded layer')")
+    assert page.get_attribute("#material-poisson_ratio", "aria-invalid") == "true"
+
+
 def test_reload_and_link_restore_the_state(page, browser, server):
     opened(page, server[0])
     page.select_option("#example", index=4)

@@ -48,7 +48,7 @@ async function restore(store) {
   let state = {};
   try {
     state = JSON.parse(new URLSearchParams(location.search).get("state")) || {};
-    for (const each of [state.case || {}, ...(state.kept || [])]) if (!Object.values(each).every((table) => table instanceof Object)) throw new TypeError();
+    for (const each of [state.case || {}, ...(state.kept || [])]) if (![each, ...Object.values(each)].every((table) => table instanceof Object)) throw new TypeError();
   } catch {
     state = {};
     at("status").textContent = "the link is not whole; the first example is shown";
