@@ -20,7 +20,7 @@ from .simulate import HowLong
 _MOST = 50  # speeds between two ends
 
 
-_STUDY = "Study written by `viscotack identify rates ... -o study.toml`."
+_STUDY = "Study that `viscotack identify rates` writes."
 
 
 def _speeds(words: str, default: Any = ()) -> Any:

@@ -153,7 +153,7 @@ class IdentifyRates(Series, OnLayer):
 
     word: ClassVar = "identify rates"
     outputs: ClassVar = (
-        main_file("Write the study, for `viscotack forecast` and `viscotack report`.", ".toml"),
+        main_file("Write the study, for forecast and report.", ".toml"),
         picture(),
         picture("Draw the posterior of the interface.", "corner"),
     )
@@ -230,7 +230,7 @@ class IdentifyEdge(Series):
 
     word: ClassVar = "identify edge"
     outputs: ClassVar = (
-        main_file("Write the study, for `viscotack forecast`.", ".toml"),
+        main_file("Write the study, for forecast.", ".toml"),
         picture(),
         picture("Draw the posterior of the law.", "corner"),
     )

@@ -368,11 +368,13 @@ def _described(name: str, info: FieldInfo) -> dict[str, Any]:
     quoted = option.words.split('"')
     return {
         "name": name,
-        # without the flags of the command line
-        "words": re.sub("--([a-z-]+)", lambda x: x[1].replace("-", "_"), option.words),
+        # without commands and flags
+        "words": re.sub(
+            "`viscotack (.+?)`|--([a-z-]+)", lambda x: x[1] or x[2].replace("-", "_"), option.words
+        ),
         "form": form,
         "unit": getattr(option, "unit", ""),
-        "example": option.example or (quoted[1] if len(quoted) > 2 else ""),
+        "example": option.example.strip('"') or (quoted[1] if len(quoted) > 2 else ""),
         "choices": list(choices_of(info)),
         "default": default if isinstance(default, str | int | float | bool) else None,
         "needed": default is PydanticUndefined,

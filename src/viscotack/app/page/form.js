@@ -7,7 +7,7 @@ export class Form {
   constructor(operation, id, skip = []) {
     this.fields = operation.options.filter(({ name }) => !skip.includes(name)).map((one) => {
       const input = control(one, `${id}-${one.name}`);
-      return { ...one, input, row: h("div", { class: "field" }, h("label", { for: input.id }, one.name.replaceAll("_", " ")), input) };
+      return { ...one, input, row: h("div", { class: "field" }, h("label", { for: input.id }, one.name.replaceAll("_", " ")), input, h("p", { class: "hint whole" }, one.words)) };
     });
     const [needed, others] = [true, false].map((is) => this.fields.filter((one) => (one.needed || one.form === "problem") === is).map(({ row }) => row));
     this.needed = h("div", {}, needed);
@@ -81,11 +81,10 @@ export function reader(operation, id, words, told, outputs = []) {
   }
 }
 
-function control({ name, form, many, choices, example, unit, words, default: usual }, id) {
-  const more = { id, title: words };
-  if (form === "choice" && !many) return h("select", more, h("option", { value: "" }, usual === null || usual === "" ? "" : `${usual} (usual)`), choices.map((word) => h("option", { value: word }, word)));
-  if (form === "file" || form === "rows") return h("input", { ...more, type: "file", multiple: many });
-  if (form === "switch") return h("input", { ...more, type: "checkbox", checked: usual === true });
-  if (many || form === "problem") return h("textarea", { ...more, rows: many ? 2 : 8, placeholder: many ? `${example || choices.join(", ")}, one a line` : "" });
-  return h("input", { ...more, placeholder: example || (usual === null ? (unit === "1" ? "" : unit) : String(usual)) });
+function control({ form, many, choices, example, unit, default: usual }, id) {
+  if (form === "choice" && !many) return h("select", { id }, h("option", { value: "" }, usual === null || usual === "" ? "" : `${usual} (usual)`), choices.map((word) => h("option", { value: word }, word)));
+  if (form === "file" || form === "rows") return h("input", { id, type: "file", multiple: many });
+  if (form === "switch") return h("input", { id, type: "checkbox", checked: usual === true });
+  if (many || form === "problem") return h("textarea", { id, rows: many ? 2 : 8, placeholder: many ? [example || choices.join(", "), "one a line"].filter(Boolean).join(", ") : "" });
+  return h("input", { id, placeholder: example || `${usual ?? ""} ${unit === "1" ? "" : unit}`.trim() });
 }

@@ -27,7 +27,7 @@ export const operations = (id, ...words) => (host, store, title) => {
     // some answers have no curve to write: what is not asked for is not missed
     const outputs = operation.outputs.map(({ name, words: of, kind }) => {
       const box = h("input", { type: "checkbox", id: `${id}-with-${name}`, checked: words.length > 0 && kind === "picture" });
-      return { name, box, line: h("label", { class: "hint" }, box, ` ${name}: ${of.replace(ON_THE_LINE, "")}`) };
+      return { name, box, line: h("label", { class: "hint" }, box, ` ${name}: ${of.replace(ON_THE_LINE, "").replace(/^Draw$/, "Draw it")}`) };
     });
     const [pictures, more] = [true, false].map((is) => outputs.filter(({ box }) => box.checked === is).map(({ line }) => line));
     const example = words.length ? written(form) : () => null;
@@ -50,7 +50,7 @@ export const operations = (id, ...words) => (host, store, title) => {
       take.replaceWith(text);
       text.focus();
     }, { id: `${id}-example` });
-    field.row.after(h("p", { class: "hint" }, field.words), ...(EXAMPLES.includes(operation.word) ? [take] : []));
+    if (EXAMPLES.includes(operation.word)) field.row.after(take);
     return () => (text.value ? { option: field.name, file: new File([text.value], name) } : null);
   }
 
