@@ -126,6 +126,14 @@ def test_other_shapes_starts_and_alternatives_of_a_number_are_answered(page, ser
     assert page.get_attribute("#material-poisson_ratio", "aria-invalid") == "true"
 
 
+def test_a_case_that_is_not_simulated_shows_no_number_of_the_case_before(page, server):
+    opened(page, server[0])
+    page.uncheck("text=simulate when the numbers rest")
+    page.select_option("#example", index=3)  # a cone, of which no theory answers
+    page.wait_for_selector("#best .large:text('no answer')")
+    assert "stale" not in page.get_attribute("#best", "class")
+
+
 def test_reload_and_link_restore_the_state(page, browser, server):
     opened(page, server[0])
     page.select_option("#example", index=4)

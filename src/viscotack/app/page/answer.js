@@ -15,7 +15,7 @@ export function answer(host, store) {
     if (refused.textContent !== words) refused.textContent = words;
     if (!best || best === drawn) return;
     drawn = best;
-    const [first] = best, { words: name, unit } = first ? quick.axes[first.name] : quick.axes.pulled, why = [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join("; ");
+    const [first] = best, { words: name, unit } = first ? quick.axes[first.name] : quick.axes.pulled, run = store.now("run"), why = [store.verdict?.refused, run?.error || run?.answer?.summary.status].filter(Boolean).join("; ");
     const texts = first ? [name, said(first.value, unit), bandOf(first), `method: ${first.method}${first.why ? `; ${first.why}` : ""}`] : [name, "no answer", "", why];
     lines.forEach((line, i) => { if (line.textContent !== texts[i]) line.textContent = texts[i]; });
     lines[3].title = texts[3];

@@ -8,7 +8,7 @@ export function compare(host, store) {
   const box = h("section", { class: "card wide" }), differing = h("div"), keep = button("Keep the present case", () => store.keep(), { id: "keep-here" });
   host.append(h("div", { class: "view" }, box, h("section", { class: "card wide" }, h("h2", {}, "What differs"), differing)));
   const plot = new Plot(box, "Cases beside each other", { height: 380 });
-  box.append(h("div", { class: "row" }, keep, h("p", { class: "hint" }, "Up to four. They are in the link of the page.")));
+  box.append(h("div", { class: "row" }, keep, h("p", { class: "hint" }, "Up to four, in the link of the page. A stress is not drawn beside forces.")));
   store.on("kept", draw);
   return { shown: draw };
 
@@ -17,7 +17,7 @@ export function compare(host, store) {
     keep.disabled = kept.length >= MOST_KEPT;
     if (host.hidden) return;
     const axes = kept[0]?.quick.axes || { depth: { words: "depth", unit: "m" }, force: { words: "force", unit: "N" } };
-    const series = kept.map(({ answer, quick: { curves } }, i) => ({ drawn: answer?.curve || curves.surrogate || curves.elastic, colour: `c${i}`, dash: !answer, words: `case ${i + 1}${answer ? ", simulated" : ""}` }));
+    const series = kept.map(({ answer, quick: { axes: { force }, curves } }, i) => ({ drawn: force.unit === axes.force.unit && (answer?.curve || curves.surrogate || curves.elastic), colour: `c${i}`, dash: !answer, words: `case ${i + 1}${answer ? ", simulated" : ""}` }));
     plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series.filter(({ drawn }) => drawn).map(({ drawn, ...more }) => ({ kind: "line", x: drawn.depth, y: drawn.force, ...more })));
     const heads = kept.map(({ tables }, i) => h("span", {}, `case ${i + 1} `, button("open", () => store.take(tables), { "aria-label": `Open case ${i + 1}` }), button("remove", () => store.keepAll(kept.toSpliced(i, 1)), { "aria-label": `Remove case ${i + 1}` })));
     differing.replaceChildren(kept.length ? table("Numbers of the cases", ["number", ...heads], rows(kept)) : h("p", { class: "hint" }, "No case is kept yet."));

@@ -32,7 +32,7 @@ export function contact(host, store) {
   const pressure = new Plot(fields, "Pressure along the radius", { height: 200 }), gap = new Plot(fields, "Gap along the radius", { height: 200 });
   const speeds = new Plot(bySpeed, "Pull-off against speed", { height: 270 }), energy = new Plot(byEnergy, "Where the work goes", { height: 270 });
 
-  const start = button("Simulate", () => store.simulate()), cancel = button("Cancel", () => store.stop("cancelled"), { id: "cancel" });
+  const start = button("Simulate", () => store.simulate()), cancel = button("Cancel", () => { store.stop("cancelled"); store.judge(); }, { id: "cancel" });
   const keep = button("Keep to compare", () => store.keep());
   const report = button("Save a report", () => save("report.html", new Blob([reportOf(store, { numbers, tiers, words, plots: [plot, speeds, energy] })], { type: "text/html" })), { id: "save-report" });
   const progress = h("progress", { max: 1, "aria-label": "Progress of the simulation" }), status = h("p", { class: "hint", id: "run", role: "status" });
@@ -111,12 +111,12 @@ export function contact(host, store) {
   }
 
   function speed(quick, done) {
-    const found = store.theory?.speeds, known = store.now("theory"), pull = done?.pull, { rig } = store;
+    const found = store.theory?.speeds, known = store.now("theory"), pull = known && done?.pull, { rig } = store, { axes } = store.theory || quick;
     bySpeed.classList.toggle("stale", !known);
     const series = found ? ofSpeeds(found) : [];
     if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
     if (rig) series.push(measured(rig));
-    speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, series, known && !found ? "no theory or surrogate answers at other speeds" : undefined);
+    speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pulled, least: 0 } }, series, known && !found ? "no theory or surrogate answers at other speeds" : undefined);
     if (!found) return;
     const away = found.speed.map((x) => Math.abs(Math.log(x / found.here)));
     speeds.point(found.here, pull ?? found.force[away.indexOf(Math.min(...away))], "this case");

@@ -52,6 +52,6 @@ export function rig(host, store) {
     if (!quick || host.hidden) return;
     drawCurves(plot, store);
     speeds.card.hidden = !found;
-    if (found) speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, [...(store.theory?.speeds ? ofSpeeds(store.theory.speeds) : []), measured(found)]);
+    if (found) speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, [...(store.now("theory")?.speeds ? ofSpeeds(store.theory.speeds) : []), measured(found)]);
   }
 }

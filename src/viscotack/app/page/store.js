@@ -41,7 +41,7 @@ export class Store extends EventTarget {
     if (!this.quick || this.answered !== this.version) return null;
     const verdict = this.now("verdict"), numbers = this.quick.numbers.length ? this.quick.numbers : verdict?.numbers;
     if (!numbers || numbers.length) return numbers ?? null;
-    if (!["done", "stopped", "refused"].includes(this.now("run")?.state)) return null;
+    if (["queued", "running"].includes(this.now("run")?.state ?? (this.auto ? "queued" : ""))) return null;
     if (!this.simulated) return [];
     const { pull, work, error } = this.simulated, more = { method: "simulation", why: verdict.refused };
     return [
@@ -99,7 +99,7 @@ export class Store extends EventTarget {
     this.asking = false;
     this.say("quick");
     if (version !== this.version) this.askQuick();
-    else if (!this.refused && this.auto) this.resting = setTimeout(() => this.simulate(), REST);
+    else if (!this.refused) this.resting = setTimeout(() => (this.auto ? this.simulate() : this.judge()), REST);
   }
 
   // The address is the state: a reload, or whoever gets the link, sees the same.
@@ -116,7 +116,7 @@ export class Store extends EventTarget {
     this.stop();
     const run = this.run = { ...IDLE, depth: [], force: [], state: "queued", version: this.version }, began = performance.now();
     this.say("run");
-    const judging = setTimeout(() => this.judge(run), 1500);
+    const judging = setTimeout(() => run === this.run && this.judge(), 1500);
     try {
       const asked = { problem: this.tables, ...this.settings, time_limit: 300, profiles: true };
       run.job = await start("simulate", asked, { outputs: ["drawn"] });
@@ -141,13 +141,14 @@ export class Store extends EventTarget {
       clearTimeout(judging);
     }
     this.say("run");
-    this.judge(run);
+    this.judge();
   }
 
   // End what goes on; its curve stays, marked as one of another case.
   stop(words = "") {
     clearTimeout(this.resting);
     this.judging?.abort();
+    this.judged = null;
     if (!["queued", "running"].includes(this.run.state)) return;
     if (this.run.job) cancel(this.run.job);
     this.run = { ...this.run, state: "cancelled", error: words, job: null };
@@ -155,11 +156,11 @@ export class Store extends EventTarget {
   }
 
   // Ask what is known of the case by every method, then the theories that take seconds.
-  async judge(run) {
-    if (run.judged || run !== this.run) return;
-    run.judged = true;
+  async judge() {
+    if (this.judged === this.version) return;
+    this.judged = this.version;
     const { version, tables: problem } = this, { signal } = this.judging = new AbortController();
-    const tell = (name, answer) => { if (version === this.version) { this[name] = { ...answer, version }; this.say("verdict"); } };
+    const tell = (name, answer) => { if (version === this.version) { this[name] = { ...answer, version, axes: this.quick.axes }; this.say("verdict"); } };
     try {
       tell("verdict", await ask("/api/verdict", { problem }, { signal }));
       tell("theory", await ask("/api/theory", { problem }, { signal }));
