@@ -118,6 +118,6 @@ def draw_uncertainty(found: Uncertainty) -> Figure:
         axes.barh(names, [found.total[x] for x in names], color="0.8", label="with other inputs")
         axes.barh(names, [found.first[x] for x in names], height=0.45, label="alone")
         axes.set_xlim(0, 1)
-        axes.set_xlabel("share of the variance of the logarithm of the force")
+        axes.set_xlabel("share of the variance of ln(force)")
         axes.legend(loc="lower right", fontsize="small")
     return figure

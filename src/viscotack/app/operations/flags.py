@@ -59,7 +59,7 @@ def _both(words: str, key: str, **more: Any) -> Flag:
 _MATERIAL = (
     "power-law (default; of a punch sls), sls, fractional-zener:ORDER, elastic, prony:FILE (CSV, "
     "modulus_ratio and relaxation_time_s, whose unit is then that of --rate), a passport "
-    "FILE.toml, a published name (`viscotack material list`), or NAME:NUMBERS by --with."
+    "FILE.toml, a published name (`viscotack material list`), or NAME:NUMBERS for one of your own."
 )
 _MOVE = (
     "A move before the retraction, repeatable: 'approach SPEED to WHERE', 'retract SPEED to WHERE' "
@@ -68,7 +68,7 @@ _MOVE = (
 )
 LAW = (
     "lennard-jones (default), dugdale, exponential:DECAY (over h0), table:FILE (CSV, gap_nm and "
-    "traction_kPa), or NAME:NUMBERS by --with. Growing with the opening speed: "
+    "traction_kPa), or NAME:NUMBERS for one of your own. Growing with the opening speed: "
     "gent-schultz:SPEED,EXPONENT, eyring:SPEED,SENSITIVITY; with the time in contact: "
     "logarithmic-ageing:TIME,SENSITIVITY, saturating-ageing:TIME,GROWTH; :LAW behind one is its "
     "law at rest."

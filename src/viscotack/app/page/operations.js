@@ -32,8 +32,8 @@ export const operations = (id, ...words) => (host, store, title) => {
     const [pictures, more] = [true, false].map((is) => outputs.filter(({ box }) => box.checked === is).map(({ line }) => line));
     const example = words.length ? written(form) : () => null;
     const go = () => ask(form, [...form.files, ...attached.files], example(), outputs.filter(({ box }) => box.checked).map(({ name }) => name));
-    place.replaceChildren(h("p", { class: "hint" }, operation.summary), form.host,
-      ...(problem ? [button("Take the case of this page", () => { problem.input.value = JSON.stringify(store.tables, null, 1); })] : []), ...pictures,
+    if (problem) problem.row.after(button("Take the case of this page", () => { problem.input.value = JSON.stringify(store.tables, null, 1); }));
+    place.replaceChildren(h("p", { class: "hint" }, operation.summary), form.host, ...pictures,
       h("div", { class: "field" }, h("label", { for: attached.id }, "other files that it names"), attached), ...(more.length ? [fold("more to save", more)] : []), button("Compute", go, { id: `${id}-ask` }));
     told.replaceChildren();
   }
