@@ -4,8 +4,8 @@ import { button, fold, h, save, selection } from "./dom.js";
 import { Form, compute } from "./form.js";
 
 const EXAMPLES = ["design", "window", "array", "rough"];
-// What a command line says of files, which the page saves by buttons.
-const ON_THE_LINE = /(; - is standard output|,? to an? \.\w+.*)\.?$/;
+// What a command line says of pictures, which the page saves by buttons.
+const ON_THE_LINE = /,? to an? \.\w+.*$/;
 
 // A view of some operations, or of all; alone, without the case of the page, where they are named.
 export const operations = (id, ...words) => (host, store, title) => {
