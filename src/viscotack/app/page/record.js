@@ -1,10 +1,11 @@
 // The record: the state as a link, a file, a command line and Python, and everything to take along.
 
 import { button, copied, dropped, h, save } from "./dom.js";
+import { moveOf } from "./numbers.js";
 import { ask } from "./server.js";
 
 // Tables as a case file; and what simulates it, once it is saved as case.toml.
-export const tomlOf = (tables) => Object.entries(tables).map(([name, table]) => [`[${name}]`, ...Object.entries(table).map(([key, value]) => `${key} = ${JSON.stringify(value)}`), ""].join("\n")).join("\n");
+export const tomlOf = (tables) => Object.entries(tables).map(([name, table]) => [`[${name}]`, ...Object.entries(table).map(([key, value]) => `${key} = ${JSON.stringify(Array.isArray(value) ? value.map(moveOf) : value)}`), ""].join("\n")).join("\n");
 export const commandOf = ({ accuracy, until }) => `viscotack simulate case case.toml --accuracy ${accuracy} --until ${until}\nviscotack predict case.toml\n`;
 export const pythonOf = ({ accuracy, until }) => `from viscotack import read_case, solve, summary\n\nresult = solve(read_case("case.toml"), accuracy=${accuracy}, until="${until}")\nprint(summary(result))\n`;
 
