@@ -295,7 +295,7 @@ def test_sweeps_that_err_as_one_make_intervals_wide_enough():
     for seed in range(3):
         report = fit(swept(seed), poisson_ratio=0.5, model="power-law", draws=0)
         common = re.search("the points of one sweep have a common error of (.*) %", report.words())
-        assert float(common[1]) == pytest.approx(3, rel=0.5)  # type: ignore[index]
+        assert float(common[1]) == pytest.approx(3, rel=0.5)
         inside += [i.low <= getattr(SMOOTH, i.name) <= i.high for i in report.intervals]
     assert np.mean(inside) > 0.8
 
