@@ -3,6 +3,7 @@
 import json
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,9 @@ from command_line import exit_status
 from rate_tests import PRELOAD, RADIUS, SPEEDS, WORK, fitted, holds, linear
 from viscotack.identify import forecast_rates
 from viscotack.identify.covariances import trend_covariance
+from viscotack.identify.forecasting import _departure
 from viscotack.lab import tack
+from viscotack.lab.tack import Measured
 
 # Computed tests of an interface that grows with speed: R 5 mm, E* 2 MPa, noise 10 uN, five speeds.
 GROWING = sorted((Path(__file__).parent / "data" / "growing_tack").glob("tack_*.csv"))
@@ -84,6 +87,16 @@ def test_a_bent_departure_is_held_where_it_was_measured():
     fit = fitted(forces, 0.01)
     assert not fit.describes_tests
     assert holds(forecast_rates(fit, SPEEDS), forces)
+
+
+def test_a_departure_reaches_as_far_as_the_noise_of_the_tests_at_each_speed():
+    given = SimpleNamespace(speed=np.array([1.0, 1.0, 9.0]), force=np.array([0.9, 1.1, 2.4]))
+    series = [SimpleNamespace(force=Measured(force, 0.01)) for force in given.force]
+    fit = SimpleNamespace(given=given, series=series, forces=(1.0, 1.0, 2.0))
+    found = np.log(_departure(fit, np.array([1.0, 3.0, 9.0]), 0.05))
+    off, reach = np.log([[0.9, 1.2], [1.1, 1.2]]), 1.6449 * 0.01
+    ends = off + reach * np.array([[-1 / 0.9, -1 / 2.4], [1 / 1.1, 1 / 2.4]])
+    assert found == pytest.approx(np.insert(ends, 1, ends.mean(axis=1), axis=1), rel=1e-3)
 
 
 @pytest.mark.slow
