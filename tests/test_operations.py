@@ -27,7 +27,7 @@ from solids import standard_solid
 from stated import PUNCH, SPHERE
 from viscotack.app.api import application
 from viscotack.app.engine.jobs import Engine
-from viscotack.app.operations import operation, operations
+from viscotack.app.operations import ask, operation, operations
 from viscotack.app.operations.flags import FLAGS
 from viscotack.app.operations.options import Contact
 from viscotack.app.operations.request import Caller, request_of
@@ -242,6 +242,18 @@ def test_requests_of_the_pages_are_answered(page, folder, http):
         body = Path(body[1:]).read_text("utf-8") if body.startswith("@") else body
         response = http("POST", path, json=json.loads(body))
         assert response.status_code == 200, response.text
+
+
+def test_python_has_the_outputs_of_an_answer_as_columns_figures_and_files(tmp_path):
+    answer = ask("identify curves", files=[ROOT / "examples/from_rig" / LENS[0]], radius="5.19 mm")
+    rows = answer.record()["curves"]
+    assert answer.columns()["work_of_adhesion_J_m2"] == [x["work_of_adhesion_J_m2"] for x in rows]
+    assert len(answer.plot().axes) > 0
+    answer.write("plot", tmp_path / "curves.svg")
+    assert (tmp_path / "curves.svg").read_text().startswith("<?xml")
+    for output in (answer.columns, answer.plot):
+        with pytest.raises(InputError):
+            output("film")
 
 
 def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, monkeypatch):

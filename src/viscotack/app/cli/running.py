@@ -21,7 +21,7 @@ from viscotack.app.operations.request import Answer, Caller, Request, answered
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
 from viscotack.files.whole import NotWritten, check_target, is_standard_output, same_file
-from viscotack.plot.style import check_format, save_figure
+from viscotack.plot.style import check_format
 
 
 def checked(
@@ -98,11 +98,7 @@ def finish(
             if any(same_file(file, each) for each in read):
                 words = f"cannot write {file}: it is an input of this command; give another name"
                 raise NotWritten(EEXIST, words)
-            if output.name in answer.pictures:
-                save_figure(answer.pictures[output.name](), file)
-            else:
-                target = typer.get_binary_stream("stdout") if to_output else file
-                answer.write(output.name, target)
+            answer.write(output.name, typer.get_binary_stream("stdout") if to_output else file)
         except BrokenPipeError as error:
             reader_left = error
         except OSError as error:

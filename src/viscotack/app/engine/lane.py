@@ -230,7 +230,7 @@ def _content(answer: Answer, output: Output) -> str:
     """Return a file as text: a picture as SVG, a binary file in base 64."""
     stream = io.BytesIO()
     if output.name in answer.pictures:
-        answer.pictures[output.name]().savefig(stream, format="svg")
+        answer.plot(output.name).savefig(stream, format="svg")
     else:
         answer.write(output.name, stream)
     content = stream.getvalue()

@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from inspect import cleandoc
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic.fields import FieldInfo
@@ -78,8 +78,32 @@ class Answer:
         return plain(self.data)
 
     def write(self, output: str, target: "Target") -> None:
-        """Write the file of an output, whole or not at all."""
-        write_file(self.files[output], target)
+        """Write an output, whole or not at all; the name of a picture's file states its format."""
+        if output in self.pictures:
+            from viscotack.plot.style import save_figure
+
+            save_figure(self.plot(output), cast("Path", target))
+        else:
+            write_file(self._of(output, self.files), target)
+
+    def plot(self, output: str = "plot") -> Any:
+        """Return the figure of an output."""
+        return self._of(output, self.pictures)()
+
+    def columns(self, output: str = "csv") -> Mapping[str, Any]:
+        """Return an output as columns, such as pandas.DataFrame takes."""
+        found = self._of(output, self.files)
+        if isinstance(found, str) or callable(found):
+            raise InputError(f"{output} is no table of columns; write it to a file")
+        return found if isinstance(found, Mapping) else columns_of(found)
+
+    def _of(self, output: str, known: Mapping[str, Any]) -> Any:
+        """Return an output by name."""
+        if output not in known:
+            raise InputError(
+                f"no {output!r:.60} in this answer; it has {', '.join(known) or 'none'}"
+            )
+        return known[output]
 
     def __str__(self) -> str:
         """Return the text for the terminal."""
