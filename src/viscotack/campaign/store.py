@@ -20,12 +20,10 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from viscotack.errors import InputError
 from viscotack.files.frame import arrow, frame
 from viscotack.files.text import cell, read_text
-from viscotack.files.whole import Target, write_whole, writing_whole
+from viscotack.files.whole import Target, writing_whole
 
 from .case import CaseSettings, identity
 from .plan import Case, Plan, numbers_of, restored_kind
@@ -418,10 +416,10 @@ def export(rows: Iterable[Row], path: Target, *, trajectories: bool = True) -> N
     rows : iterable of mapping
         `Store.results` or `Store.failures`, or a list; they are gone through twice.
     path : path or binary file
-        Its ending chooses the format: ``.csv``, ``.parquet`` or ``.mat``; an open file gets CSV.
+        Its ending chooses the format: ``.csv`` or ``.parquet``; an open file gets CSV.
     trajectories : bool
         Whether columns of lists are written as well; in CSV each place of a list is a column,
-        ``trajectory_force_01`` and so on, in MATLAB a list is a row of a matrix.
+        ``trajectory_force_01`` and so on.
 
     Raises
     ------
@@ -492,23 +490,4 @@ def _write_parquet(rows: Iterable[Row], columns: _Columns, path: Target) -> None
             writer.write_table(pa.Table.from_pylist(some, schema=schema))
 
 
-def _write_mat(rows: Iterable[Row], columns: _Columns, path: Target) -> None:
-    from scipy.io import savemat
-
-    held, arrays = list(rows), {}
-    for name, (kinds, width) in columns.items():
-        values = [row.get(name) for row in held]
-        if width:  # a matrix with a row per list
-            empty = [np.nan] * width
-            array = np.array([(list(v or ()) + empty)[:width] for v in values], dtype=float)
-        elif str in kinds:
-            array = np.array([v or "" for v in values], dtype=object)
-        else:
-            array = np.array(values, dtype=float)
-        arrays[name.replace(".", "_")] = array
-    content = io.BytesIO()
-    savemat(content, arrays, do_compression=True, oned_as="column")
-    write_whole(path, content.getvalue())
-
-
-_WRITERS = {".csv": _write_csv, ".parquet": _write_parquet, ".mat": _write_mat}
+_WRITERS = {".csv": _write_csv, ".parquet": _write_parquet}

@@ -210,7 +210,6 @@ class Export(Request):
     outputs: ClassVar = (
         csv_file(),
         binary_file("parquet", "Write a Parquet file.", ".parquet"),
-        binary_file("mat", "Write a MATLAB file.", ".mat"),
         csv_file("Write the failures.", "failures"),
     )
     local: ClassVar = _OF_FOLDERS
@@ -223,13 +222,13 @@ class Export(Request):
         from viscotack.campaign import Store, export
 
         if not caller.wants:
-            raise InputError("no output; give csv, parquet, mat or failures FILE")
+            raise InputError("no output; give csv, parquet or failures FILE")
         store = Store(folder := caller.file(self.folder))
         results = store.results()
         files = {
             "csv": lambda target: export(results, target, trajectories=self.trajectories),
             "failures": lambda target: export(store.failures(), target),
-            **dict.fromkeys(("parquet", "mat"), lambda target: export(results, target)),
+            "parquet": lambda target: export(results, target),
         }
         return replace(_standing(folder, store), files=files)
 
