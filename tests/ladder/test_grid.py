@@ -189,10 +189,18 @@ def test_a_rough_elastic_map_loses_energy_only_in_jumps():
     assert np.abs(balance).max() < 1e-3 * np.abs(found.work).max()
 
 
-def test_a_map_without_neighbours_opens_smoothly_with_short_steps():
+@pytest.mark.parametrize(
+    ("traction", "accuracy"),
+    [(SOFT, 2e-5), (vt.Dugdale(work_of_adhesion=0.15, equilibrium_gap=GAP), 2e-3)],
+)
+def test_a_map_without_neighbours_opens_smoothly_with_short_steps_or_a_stiff_wall(
+    traction, accuracy
+):
     kind = {"hurst": 0.8, "rms_height": 1.5e-6, "seed": 3, "shortest": 8e-5, "periodic": False}
-    problem = rough(self_affine(16, 1e-5, **kind))
-    assert not pull(problem, accuracy=2e-5, estimate_error=False).events
+    problem = rough(self_affine(32, 1e-5, **kind), traction=traction)
+    found = pull(problem, accuracy=accuracy, estimate_error=False)
+    assert not found.events
+    assert found.statistics["rejected_steps"] < 0.1 * found.statistics["steps"]
 
 
 def test_faster_pulls_of_a_rough_map_take_more():

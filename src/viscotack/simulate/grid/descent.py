@@ -195,7 +195,7 @@ def equilibrium(
         return Found(v, gap, none, plane.within(held), 0.0, depth, 0, False)
     energies, tension = energy_and_traction(law, gap)
     energy = float(energies.sum())
-    stable = False
+    stable, beyond = False, not plane.periodic
 
     def found(iterations: int, stable: bool, released: bool = False) -> Found:
         pressure = plane.within(held)
@@ -209,13 +209,15 @@ def equilibrium(
         missing = float(np.abs(residual).sum()) + abs(unheld)
         scale = max(float(np.abs(tension).sum()), _LEAST * law.strength * gap.size)
         if iteration > 1 and stable and missing <= tolerance * scale:
-            if not plane.periodic:
-                # what is still unbalanced beyond the map would be a load without its energy
-                v = compliance * plane.moved(plane.within(held))
-                gap = np.maximum(free - depth + plane.within(v), GONE)
-                energies, tension = energy_and_traction(law, gap)
-                energy = float(energies.sum())
-            return found(iteration, True)
+            if not beyond:
+                return found(iteration, True)
+            # what is still unbalanced beyond the map would be a load without its energy
+            held, beyond = plane.widened(plane.within(held)), False
+            v = compliance * plane.applied(plane.compliance, held)
+            gap = np.maximum(free - depth + plane.within(v), GONE)
+            energies, tension = energy_and_traction(law, gap)
+            energy = float(energies.sum())
+            continue
         curvature = law.stiffness(gap).astype(np.float32).reshape(plane.shape)
         tangent = _Tangent(plane, *single, compliance, curvature, spring)
         saddle = iteration > _LINGERED and missing <= tolerance * scale
