@@ -90,8 +90,8 @@ def test_pull_off_and_work_are_those_of_the_edge_that_is_a_steady_crack(
     found, unit = vt.crack_contact(replace(problem, protocol=test)), problem.scales()
     far = depth + 2e-5
     legs = (depth, depth / approach), (depth, dwell), (depth - far, far / speed)
-    z, force, _ = driven(reduced_contact(problem), *legs, steps=150)
-    peak, work = pull_off(z[300:], force[300:])
+    z, force, _ = driven(reduced_contact(problem), *legs, steps=600)
+    peak, work = pull_off(z[1200:], force[1200:])
     assert peak == pytest.approx(found.pull_off_force * unit.force, rel=0.01)
     assert work == pytest.approx(found.work_to_pull_off * unit.force * unit.length, rel=0.03)
 

@@ -7,6 +7,7 @@ import pytest
 
 import viscotack as vt
 from dimensionless import ELASTIC, sphere, standard
+from rate_tests import GAP, PRELOAD, RADIUS, RUBBER, WORK
 from viscotack.theory import SteadyCrack, profiles
 from viscotack.theory.crack.contact import (
     Contact,
@@ -142,6 +143,20 @@ def test_a_slow_pull_after_a_fast_approach_is_that_of_a_simulation(monkeypatch):
     assert found.pull_off_force == pytest.approx(vt.pull_off(result).force, rel=found.band)
     monkeypatch.setattr(history, "_GROWTH", 1.07)
     assert vt.crack_contact(groups).pull_off_force == pytest.approx(found.pull_off_force, rel=6e-3)
+
+
+def test_an_edge_that_turns_after_a_dwell_does_not_depend_on_steps(monkeypatch):
+    moves = (vt.Approach(1e-4, vt.AtForce(PRELOAD)), vt.Dwell(0.1, "force"))
+    problem = vt.Problem(
+        material=RUBBER,
+        traction=vt.LennardJones(work_of_adhesion=WORK, equilibrium_gap=GAP),
+        geometry=vt.Sphere(RADIUS),
+        protocol=vt.Retraction(start=vt.Apart(GAP), moves=moves, speed=1e-5),
+    )
+    usual = vt.crack_contact(problem)
+    monkeypatch.setattr(history, "_GROWTH", 1.04)
+    finer = vt.crack_contact(problem)
+    assert finer.pull_off_force == pytest.approx(usual.pull_off_force, rel=2e-3)
 
 
 @pytest.mark.parametrize("hold", ["depth", "force"])

@@ -218,19 +218,23 @@ class RateSeriesFit(SeriesFit):
     def left_out(self) -> tuple[dict[int, float], Changed] | None:
         """Effect of approach and dwell on forces, where they are known and the fit omits them.
 
-        Dwells [s] of the tests with the shortest and the longest one by number, and the ratios of
-        their forces to those of relaxed contacts. Besides the bulk the contact relaxes: its edge
-        closes long after the modulus is that at rest.
+        Dwells [s] by number of the tests with the shortest and the longest one, the fastest of
+        each, and of the fastest test; and the ratios of their forces to those of relaxed contacts.
+        Besides the bulk the contact relaxes: its edge closes long after the modulus is that at
+        rest, and fast pulls feel it most.
         """
         given, tests = self.given, self.search.tests
         pasts = {i: one.history for i, one in enumerate(self.series) if one.history}
         dwells = {i: past.dwell for i, past in pasts.items()}
         if given.history or isinstance(given.body, Layer) or not any(dwells.values()):
             return None
-        ends = sorted({min(dwells, key=dwells.__getitem__), max(dwells, key=dwells.__getitem__)})
+        fastest_first = sorted(dwells, key=lambda i: -given.speed[i])
+        shortest, longest = (f(fastest_first, key=dwells.__getitem__) for f in (min, max))
+        ends = sorted({shortest, longest, fastest_first[0]})
         moves = tuple(pasts[i].moves(given.load[i]) for i in ends)
-        shortest_and_longest = tests.some(np.array(ends))._replace(stiffness=None, moves=moves)
-        changed = shortest_and_longest.changed(self.interface)
+        changed = (
+            tests.some(np.array(ends))._replace(stiffness=None, moves=moves).changed(self.interface)
+        )
         return {i: dwells[i] for i in ends}, changed
 
     @cached_property
