@@ -85,6 +85,10 @@ def test_a_table_or_key_that_is_left_out_or_unknown_is_refused_by_both(tables):
         (PURE, "groups", {"cohesion": 0.1}),
         (PURE, "material", {"modulus_ratio": 2}),
         (PURE, "protocol", {"speed": "1 um/s"}),
+        (PURE, "layer", {"thickness": 2}),
+        (SPHERE, "interface", {"law": "table", "file": "law.csv"}),
+        (SPHERE | {"protocol": {"history": "h.csv"}}, "protocol", {"moves": ["dwell 1 s"]}),
+        (PAD | {"protocol": {"speed": "1 um/s"}}, "protocol", {"start": "radius 1 mm"}),
     ],
 )
 def test_a_wrong_word_or_number_is_refused_by_both(of, table, change):
@@ -108,3 +112,9 @@ def test_other_laws_and_materials(table, keys):
     grown = {"reference_time": "1 s", "largest_growth": 3}
     more = grown if keys.get("law") == "saturating-ageing" else {}
     assert stated(SPHERE | {table: given | keys | more}) == (keys.get("law") != "eyring")
+
+
+def test_a_number_without_unit_may_be_text():
+    assert stated(PURE | {"groups": PURE["groups"] | {"tabor": "3.24"}})
+    assert not stated(PURE | {"groups": PURE["groups"] | {"tabor": "0"}})
+    assert stated(SPHERE | {"material": SPHERE["material"] | {"poisson_ratio": "50 %"}})

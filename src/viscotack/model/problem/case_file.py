@@ -498,10 +498,19 @@ def law_from_table(given: Any, reading: Reading) -> Traction:
     return read_as(kind, own, reading, "interface")
 
 
+def _whole(table: Tables, name: str, reading: Reading) -> Path:
+    """Return the path of the file that states all of a table; InputError for a key beside it."""
+    for key in table.keys() - {"file"}:
+        words = f"{reading.where}, [{name}] file states the whole {name}; leave out {key}"
+        raise InputError(words, field=f"{name}.{key}")
+    return reading.file(name, "file", table["file"])
+
+
 def _of_gap(kind: Any, table: Tables, reading: Reading) -> Any:
     """Return a law of the gap alone."""
     if kind is Tabulated and "file" in table:
-        file = reading.file("interface", "file", table["file"])
+        own = {k: v for k, v in table.items() if not (reading.pure and k in _SCALES)}
+        file = _whole(own, "interface", reading)
         columns = read_quantities(file, {"gap": "m", "traction": "Pa"})
         with placed(f"{file}:"):
             return Tabulated.of_points(columns["gap"], columns["traction"])
@@ -609,13 +618,8 @@ def _shape(given: Any, name: str, reading: Reading) -> Any:
     kind = reading.nouns.shapes[name]
     table = given if isinstance(given, Mapping) else {}
     if kind in (PowerLawProfile, MeasuredProfile) and "file" in table:
-        for key in table.keys() - {"file"}:
-            raise InputError(
-                f"{reading.where}, [{name}] file states the whole profile; leave out {key}",
-                field=f"{name}.{key}",
-            )
         with placed(f"{reading.where}, [{name}]"):
-            return _measured(reading.file(name, "file", table["file"]), pure=reading.pure)
+            return _measured(_whole(table, name, reading), pure=reading.pure)
     if reading.pure and kind is Sphere:
         return read_as(kind, {"radius": 1.0} | dict(table), reading, name)
     if kind is not PowerLawProfile:

@@ -51,6 +51,8 @@ _WAYS = {
 # Keys that a dimensionless problem leaves out.
 _IMPLIED = {"rubbery_modulus", "poisson_ratio", "tau0", "coefficient", "base"}
 _IMPLIED |= {"work_of_adhesion", "equilibrium_gap"}
+# A history has the moves.
+_ALONE = {"history": {"properties": {"moves": {"maxItems": 0}}}}
 _MOVES = (
     "approach 20 um/s to force {0}",
     "dwell 1 s",
@@ -108,19 +110,26 @@ def _problem(nouns: Nouns, tables: dict[str, Any], *, pure: bool) -> dict[str, A
     flat = [{"required": [w]} for w, kind in nouns.shapes.items() if kind.symmetry == "plane"]
     return {
         "properties": {**named, **shapes, **bodies, test: True},
+        "maxProperties": 5,  # one body
         "required": ["material", test] if pure else ["material", "interface", test],
         "additionalProperties": False,
-        # without dimensions a sphere is implied
-        "oneOf": [*one, {"not": {"anyOf": one}}] if pure else one,
+        # without dimensions a sphere on a half-space is implied
+        "oneOf": [*one, {"not": {"anyOf": [*one, {"required": [Layer.word]}]}}] if pure else one,
         "if": {"anyOf": flat},
-        "then": {"properties": {test: tests[f"{test}-of-a-punch"]}, "required": [Layer.word]},
+        "then": {
+            "properties": {test: tests[f"{test}-of-a-punch"]},
+            "anyOf": [{"required": [word]} for word in bodies],
+        },
         "else": {"properties": {test: tests[test]}},
     }
 
 
 def _materials(nouns: Nouns, pure: bool) -> dict[str, Any]:
     found = {word: _table((kind,), pure, model=word) for word, kind in nouns.materials.items()}
-    return found | {"passport": _table((PassportTable,), False)}
+    found["passport"] = _table((PassportTable,), False)
+    if pure:
+        del found["passport"]["properties"]["temperature"]
+    return found
 
 
 def _laws(nouns: Nouns, pure: bool) -> dict[str, Any]:
@@ -138,7 +147,8 @@ def _laws(nouns: Nouns, pure: bool) -> dict[str, Any]:
 def _shapes(nouns: Nouns, pure: bool) -> dict[str, Any]:
     found = {}
     for word, kind in nouns.shapes.items():
-        kinds = (ProfilePoint, Cone, kind) if kind is PowerLawProfile else (kind,)
+        ways = (Cone,) if pure else (ProfilePoint, Cone)
+        kinds = (*ways, kind) if kind is PowerLawProfile else (kind,)
         found[word] = _table(kinds, pure) | {"symmetry": kind.symmetry}
     if pure:
         return found | {Sphere.word: found[Sphere.word] | {"required": []}}
@@ -160,6 +170,8 @@ def _test(pure: bool, *, flat: bool) -> dict[str, Any]:
     """Return the table [groups] or [protocol] of a punch, or of an indenter of revolution."""
     units = (plane if flat else revolution).SI
     starts = [*STARTS["1" if pure else units["force"]]]
+    # the contact of a punch is as wide as the punch
+    starts = [key for key in starts if key != "preload_radius" or not flat]
     table = _table((GroupsTable if pure else ProtocolTable,), pure, units=units)
     keys = table["properties"]
     unknown = {key for key in keys if key.startswith("preload_")} - {*starts}
@@ -171,7 +183,8 @@ def _test(pure: bool, *, flat: bool) -> dict[str, Any]:
     else:
         starts, ways = [*starts, "start", "history"], ["speed", "moves", "history"]
         moves = [x.format("2 kPa" if flat else "0.5 mN") for x in _MOVES]
-        text = {"type": "string", "pattern": "^(apart|depth|force|radius) "}
+        words = "apart|depth|force" if flat else "apart|depth|force|radius"
+        text = {"type": "string", "pattern": rf"^\s*({words}) "}
         keys["start"] = _number(cards(Apart)["gap"].card, "m") | text
         keys["start"]["examples"] = ["apart 20 um"]
         keys["cycles"]["minimum"] = 1
@@ -182,7 +195,7 @@ def _test(pure: bool, *, flat: bool) -> dict[str, Any]:
         }
     table["properties"] = {key: value for key, value in keys.items() if key not in unknown}
     return table | {
-        "oneOf": [{"required": [key]} for key in starts],
+        "oneOf": [{"required": [key]} | _ALONE.get(key, {}) for key in starts],
         "anyOf": [{"required": [key]} for key in ways],
     }
 
@@ -206,8 +219,7 @@ def _table(
             unit = units.get(field.card.measure, field.card.unit)
             keys[name] = _number(field.card, "1" if pure else unit)
         keys |= {name: _pairs(field.card) for name, field in cards(kind, Pairs).items()}
-    ways = next((_WAYS[kind] for kind in kinds if kind in _WAYS), ())
-    if ways:
+    if ways := next((_WAYS[kind] for kind in kinds if kind in _WAYS), ()):
         keys["file"] = {"type": "string", "description": "a file beside this one"}
     elif "glassy_modulus" in keys:
         keys["modulus_ratio"] = _number(card_of(ModulusRatio), "1")
@@ -215,6 +227,7 @@ def _table(
     elif "equilibrium_gap" in keys and not pure:
         keys["strength"], ways = _number(STRENGTH, "Pa"), (("equilibrium_gap",), ("strength",))
     implied = _IMPLIED - words.keys() if pure else set[str]()
+    ways = [way for way in ways if keys.keys() >= {*way}]
     free = implied.union(*ways)
     summary = (kinds[-1].__doc__ or "").strip().partition("\n")[0]
     found = {
@@ -224,7 +237,14 @@ def _table(
         "required": [key for key in needed if key not in free],
         "additionalProperties": False,
     }
-    one = [{"required": [key for key in way if key not in implied]} for way in ways]
+    others = {key for way in ways for key in way} - implied
+    one = [
+        {
+            "required": [key for key in way if key not in implied],
+            "properties": dict.fromkeys(others.difference(way), False),
+        }
+        for way in ways
+    ]
     return found | ({"oneOf": one} if one else {})
 
 
@@ -234,13 +254,14 @@ def _number(card: Quantity, unit: str) -> dict[str, Any]:
     bounds = {"exclusiveMinimum": card.above, "minimum": card.least, "maximum": card.most}
     found |= {"symbol": card.symbol} | {key: x for key, x in bounds.items() if x is not None}
     example = card.example_in(unit)
-    if unit in ("1", cards(PowerLawProfile)["coefficient"].card.unit):
+    if unit == cards(PowerLawProfile)["coefficient"].card.unit:
         return found | {"examples": [float(example.split()[0])]}
     if card.above == 0:
         found["pattern"] = r"^\s*\+?[0.]*[1-9]"
     elif card.least == 0:
         found["pattern"] = r"^\s*\+?[0-9.]"
-    return found | {"type": ["number", "string"], "examples": [example]}
+    examples = [float(example) if unit == "1" else example]
+    return found | {"type": ["number", "string"], "examples": examples}
 
 
 def _pairs(card: Pairs) -> dict[str, Any]:
