@@ -2,7 +2,7 @@
 
 import inspect
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
 from typing import Annotated, Any, get_args
@@ -28,6 +28,7 @@ from viscotack.app.operations.options import (
 )
 from viscotack.app.operations.request import Request, options, request_of
 from viscotack.errors import InputError
+from viscotack.units import readable
 
 from .commands import AsJson, Force, With, wrong_input
 from .running import carry_out
@@ -89,7 +90,7 @@ def _parameters(kind: type[Request]) -> Iterator[inspect.Parameter]:
     # arguments first
     for name, (option, info) in sorted(found.items(), key=lambda each: not each[1][0].argument):
         if isinstance(option, Contact):
-            yield from _of_problem(option)
+            yield from _of_problem(option, found)
         elif not (isinstance(option, Rows) and option.elsewhere):
             yield _of_option(name, option, info, _section(kind, name))
     how: dict[str, Any] = {"metavar": "FILE", "show_default": False, "rich_help_panel": _FILES}
@@ -137,19 +138,20 @@ def _of_option(name: str, option: Option, info: FieldInfo, section: str) -> insp
         how["show_default"] = bool(default)
         words = typer.Option(*flags, **how)
     else:
+        unit = getattr(option, "unit", "1")
         if not needed and default not in (None, (), "", 0):
-            how["help"] += f" [default: {default}]"
+            how["help"] += f" [default: {default if unit == '1' else readable(default, unit)}]"
         kinds = get_args(info.annotation) or (info.annotation,)
         usual = "NUMBER" if int in kinds or isinstance(option, Number) else "TEXT"
         usual = "FILE" if isinstance(option, File) else usual
-        usual = "QUANTITY" if getattr(option, "unit", "1") != "1" else usual
+        usual = "QUANTITY" if unit != "1" else usual
         usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
         words = typer.Option(*flags, metavar=option.metavar or usual, **how)
     return _parameter(name, kind if needed else kind | None, words, needed=needed)
 
 
-def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
-    """Yield the parameters of a problem: words and files, and the flags of an indenter."""
+def _of_problem(option: Contact, own: Container[str]) -> Iterator[inspect.Parameter]:
+    """Yield the parameters of a problem: words and files, and flags that are no own options."""
     only, needed = option.spelling == "case", option.spelling != "flags"
     told = option.words if needed else f"{option.words} {_CASE}"
     how: dict[str, Any] = {"show_default": False, "rich_help_panel": "Arguments"}
@@ -158,7 +160,7 @@ def _of_problem(option: Contact) -> Iterator[inspect.Parameter]:
     yield _parameter("problem_", kind, words, needed=needed)
     flags = OF_FILE if only else flags_of(option.indenters)
     for name, flag in flags.items():
-        if option.in_si and not flag.si:
+        if name in own or (option.in_si and not flag.si):
             continue
         usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
         how["rich_help_panel"] = _OWN if only else _stated_in(flag)

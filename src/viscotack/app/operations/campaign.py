@@ -95,7 +95,7 @@ class Run(Settings):
     local: ClassVar = _OF_FOLDERS
 
     plan: Path | None = file_name(
-        f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="[PLAN]", argument=True
+        f"{_PLAN}. Without it the plan in DIR is resumed.", metavar="PLAN", argument=True
     )
     out: Path = file_name("Folder of the campaign; created if missing.", metavar="DIR", default=...)
     workers: int = option("Processes on this machine, one thread each.", default=1, ge=1)
