@@ -154,7 +154,7 @@ class BySection(TyperGroup):
         for title, commands in SECTIONS.items():
             names = dict.fromkeys(name.partition(" ")[0] for name in commands)
             with formatter.section(title):
-                formatter.write_dl([(n, self.commands[n].get_short_help_str(70)) for n in names])
+                formatter.write_dl([(n, self.commands[n].get_short_help_str(80)) for n in names])
 
 
 class Later(TyperCommand):
