@@ -36,11 +36,8 @@ from .running import carry_out
 _SETTINGS = {"max_content_width": 100}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
 # Sections of a help text.
-_OWN, _FILES, _ALWAYS = (
-    "Options",
-    "Files to write (- is standard output, for text)",
-    "General",
-)
+_OWN, _ALWAYS = "Options", "General"
+_FILES = "Files to write (- is standard output, for text)"
 
 
 class BySubject(TyperCommand):

@@ -250,13 +250,8 @@ def _pad(problem: Any) -> dict[str, Any]:
     pad, thickness = pad_of(problem), problem.body.thickness
     stress = float(np.asarray(pad.elastic_stress(thickness)))
     stiffness = -stress / float(np.asarray(pad.elastic_depth(thickness)))
-    match problem.protocol.start:
-        case AtDepth(depth=value):
-            pressed = value
-        case AtForce(force=value):
-            pressed = value / stiffness
-        case _:
-            pressed = 0.0
+    start = problem.protocol.start
+    pressed = {AtDepth: 1.0, AtForce: 1 / stiffness}.get(type(start), 0.0) * start.value
     # the stress is limited by the strength of the interface
     ways = np.array([pressed, -min(stress, pad.strength) / stiffness])
     return _curve("infinitely slow, short range", ways, ways * stiffness)

@@ -99,18 +99,14 @@ FLAGS: Mapping[str, Flag] = {
     "tau0": Flag('Time of the solid, "100 ms"; not with a passport.', si="material.tau0"),
     "temperature": OF_FILE["temperature"],
     "work_of_adhesion": Flag('Work of adhesion dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"),
-    "equilibrium_gap": Flag(
-        'Range of the attraction h0, "100 nm".', si="interface.equilibrium_gap"
-    ),
+    "equilibrium_gap": Flag('Range of attraction h0, "100 nm".', si="interface.equilibrium_gap"),
     "strength": Flag('Or: largest tension, "100 kPa".', si="interface.strength"),
     "speed": Flag('Retraction speed, "10 um/s".', si="protocol.speed"),
     "tabor": Flag(
         "Tabor number mu = (R dg0^2/(E0*^2 h0^3))^(1/3).", "groups.tabor", indenters=ROUND
     ),
     "size": Flag("Half width of the punch over a0.", "punch.half_width", indenters=_PUNCH),
-    "cohesion": Flag(
-        "Strength of the punch's interface over E0*.", "groups.cohesion", indenters=_PUNCH
-    ),
+    "cohesion": Flag("Strength over E0*, of a punch.", "groups.cohesion", indenters=_PUNCH),
     "profile_exponent": Flag(
         "Exponent q of z = A r^q, from 1 (cone).", "shape.exponent", indenters=("profile",)
     ),
@@ -154,9 +150,7 @@ FLAGS: Mapping[str, Flag] = {
         ("sphere", "profile"),
     ),
     "apart": Flag(
-        "Or: a start apart, with this gap between the undeformed surfaces [h0].",
-        "groups.apart",
-        "protocol.start",
+        "Or: apart, by this gap of the undeformed surfaces [h0].", "groups.apart", "protocol.start"
     ),
     "move": Flag(_MOVE, "groups.moves", "protocol.moves", many=True, metavar="WORDS"),
     "stiffness": Flag(

@@ -481,7 +481,7 @@ def law_from_table(given: Any, reading: Reading) -> Traction:
     table = reading.given(given, "interface")
     kind = reading.choice(table, "interface", "law", reading.nouns.laws, OWN)
     del table["law"]
-    if reading.pure:
+    if reading.pure and "file" not in table:
         table = dict.fromkeys(_SCALES, 1.0) | table
     if not has_rest(kind):
         law = _of_gap(kind, table, reading)
@@ -509,8 +509,7 @@ def _whole(table: Tables, name: str, reading: Reading) -> Path:
 def _of_gap(kind: Any, table: Tables, reading: Reading) -> Any:
     """Return a law of the gap alone."""
     if kind is Tabulated and "file" in table:
-        own = {k: v for k, v in table.items() if not (reading.pure and k in _SCALES)}
-        file = _whole(own, "interface", reading)
+        file = _whole(table, "interface", reading)
         columns = read_quantities(file, {"gap": "m", "traction": "Pa"})
         with placed(f"{file}:"):
             return Tabulated.of_points(columns["gap"], columns["traction"])

@@ -237,11 +237,10 @@ def _table(
         "required": [key for key in needed if key not in free],
         "additionalProperties": False,
     }
-    others = {key for way in ways for key in way} - implied
     one = [
         {
             "required": [key for key in way if key not in implied],
-            "properties": dict.fromkeys(others.difference(way), False),
+            "properties": {key: False for other in ways for key in other if key not in way},
         }
         for way in ways
     ]
