@@ -115,6 +115,6 @@ def test_other_laws_and_materials(table, keys):
 
 
 def test_a_number_without_unit_may_be_text():
-    assert stated(PURE | {"groups": PURE["groups"] | {"tabor": "3.24"}})
+    assert stated(PURE | {"groups": PURE["groups"] | {"tabor": "3.24", "moves": ["dwell 1"]}})
     assert not stated(PURE | {"groups": PURE["groups"] | {"tabor": "0"}})
     assert stated(SPHERE | {"material": SPHERE["material"] | {"poisson_ratio": "50 %"}})

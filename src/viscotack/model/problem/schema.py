@@ -170,8 +170,9 @@ def _test(pure: bool, *, flat: bool) -> dict[str, Any]:
     """Return the table [groups] or [protocol] of a punch, or of an indenter of revolution."""
     units = (plane if flat else revolution).SI
     starts = [*STARTS["1" if pure else units["force"]]]
-    # the contact of a punch is as wide as the punch
-    starts = [key for key in starts if key != "preload_radius" or not flat]
+    if flat and pure:
+        # the contact of a punch is as wide as the punch
+        starts.remove("preload_radius")
     table = _table((GroupsTable if pure else ProtocolTable,), pure, units=units)
     keys = table["properties"]
     unknown = {key for key in keys if key.startswith("preload_")} - {*starts}
@@ -188,11 +189,7 @@ def _test(pure: bool, *, flat: bool) -> dict[str, Any]:
         keys["start"] = _number(cards(Apart)["gap"].card, "m") | text
         keys["start"]["examples"] = ["apart 20 um"]
         keys["cycles"]["minimum"] = 1
-        keys["moves"] = {
-            "type": "array",
-            "items": {"type": ["string", "object"]},
-            "examples": [moves],
-        }
+        keys["moves"] |= {"items": {"type": ["string", "object"]}, "examples": [moves]}
     table["properties"] = {key: value for key, value in keys.items() if key not in unknown}
     return table | {
         "oneOf": [{"required": [key]} | _ALONE.get(key, {}) for key in starts],
