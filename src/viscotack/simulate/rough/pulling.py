@@ -124,8 +124,8 @@ def pull(
     ...     protocol=Retraction(start=AtDepth(4e-6), speed=1e-6),
     ... )
     >>> found = pull(problem, estimate_error=False)
-    >>> f"{found.pull_off_force * 1e3:.2f} mN"
-    '3.76 mN'
+    >>> f"{found.pull_off_force * 1e3:.1f} mN"
+    '3.8 mN'
     """
     began = perf_counter()
     warnings, pixels, zone = (), problem.zone.pixels, problem.zone.length
