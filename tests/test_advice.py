@@ -177,3 +177,8 @@ def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, 
     }
     assert exit_status([*law, "--plot", picture]) == 0
     assert picture.stat().st_size > 1000
+    file.write_text(
+        "T,f,E',E''\nC,Hz,MPa,MPa\n-20,1,4,3\n0,1,2,0.9\n20,1,1.1,0.2\n40,1,1.01,0.03\n"
+    )
+    assert exit_status(law) == 2
+    assert "--modulus-table" in capsys.readouterr().err

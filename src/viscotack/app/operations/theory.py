@@ -435,6 +435,7 @@ class _OfTheory(Reduced):
 
     def _of_table(self, caller: Caller) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         from viscotack.lab import master_curve, read_dma
+        from viscotack.lab.sweeps import GAP
         from viscotack.theory import tabulated_modulus
 
         if given := self.given:
@@ -446,10 +447,10 @@ class _OfTheory(Reduced):
             getattr(tabulated_modulus, f"{of}{name}") for name in ("amplification", "speed_range")
         )
         table = read_dma(caller.file(self.modulus_table), kind="E")
-        if np.ptp(table.sweep):
+        if np.ptp(table.sweep) or np.ptp(table.temperature) > GAP:
             raise InputError(
-                "`modulus_table` has several sweeps; give one master curve, as `viscotack material "
-                "fit` makes it"
+                "`modulus_table` has several sweeps or temperatures; fit a material to it by "
+                "`viscotack material fit`, and give that as `material`"
             )
         curve = master_curve(table, reference_temperature=None)
         modulus = tabulated_modulus.TabulatedModulus(
