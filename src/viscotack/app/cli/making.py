@@ -35,8 +35,8 @@ from .running import carry_out
 
 _SETTINGS = {"max_content_width": 100}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
-# Sections of a help text.
-_OWN, _ALWAYS = "Options", "General"
+# Sections of a help text, beside those of requests.
+_ALWAYS = "General"
 _FILES = "Files to write (- is standard output, for text)"
 
 
@@ -115,9 +115,9 @@ def _parameter(
 
 
 def _section(kind: type[Request], name: str) -> str:
-    """Return the section of an option: that of the class that declares it."""
-    of = next(each for each in kind.__mro__ if name in vars(each).get("__annotations__", {}))
-    return vars(of).get("section", _OWN)
+    """Return the section of an option: that of the class that declares it, if it has no command."""
+    of: Any = next(x for x in kind.__mro__ if name in vars(x).get("__annotations__", {}))
+    return Request.section if "word" in vars(of) else of.section
 
 
 def _of_option(name: str, option: Option, info: FieldInfo, section: str) -> inspect.Parameter:
@@ -160,7 +160,7 @@ def _of_problem(option: Contact, own: Container[str]) -> Iterator[inspect.Parame
         if name in own or (option.in_si and not flag.si):
             continue
         usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
-        how["rich_help_panel"] = _OWN if only else _stated_in(flag)
+        how["rich_help_panel"] = Request.section if only else _stated_in(flag)
         words = typer.Option(f"--{name.replace('_', '-')}", metavar=usual, help=flag.words, **how)
         yield _parameter(f"of_{name}", list[str] | None if flag.many else str | None, words)
 

@@ -12,7 +12,7 @@ from .options import Number, csv_file, main_file, named, number, option, picture
 from .parts.files import Rig, refusals
 from .parts.record_words import estimates, read
 from .parts.solid import OnLayer, Solid, solid_of
-from .request import Answer, Caller
+from .request import Answer, Caller, Request
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -90,6 +90,8 @@ class IdentifySlow(Rig):
 
 class Series(Rig):
     """Files of a rig that are one rate series."""
+
+    section: ClassVar = Request.section
 
     radius: Radius
     preload: float | None = number(

@@ -243,7 +243,7 @@ class Request(BaseModel):
     local : str
         Why it is not available over HTTP; "" where it is.
     section : str
-        Section of the help with the options that the class itself declares.
+        Section of the help with the options of a class that is no operation itself.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)

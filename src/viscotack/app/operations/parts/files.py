@@ -35,8 +35,6 @@ class OfFiles(Request):
 class Dma(OfFiles):
     """Options that describe the files of a DMA or another test of a material."""
 
-    section: ClassVar = OfFiles.section
-
     test: Literal["dma", "relaxation", "creep"] | None = option(
         "Kind of test; default: by the columns."
     )
@@ -145,8 +143,6 @@ class ShiftLaw(Request):
 class Shifting(ShiftLaw):
     """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
 
-    section: ClassVar = ShiftLaw.section
-
     shift_by: Literal["both", "storage", "loss", "tan"] | None = option(
         "Quantity that must superpose where shifts are fitted to the overlap. Default without "
         "--vertical: both, or storage if it is clearly more causal."
@@ -207,8 +203,6 @@ def _sign(words: str) -> Any:
 
 class Rig(OfFiles):
     """A request with files of a rig, and what describes them and the rig itself."""
-
-    section: ClassVar = OfFiles.section
 
     files: tuple[Path, ...] = input_file(
         "Files of the rig: text with units, a testXpert workbook, .nid, .jpk-force or .ibw; a "
